@@ -1,0 +1,26 @@
+# Third-party code comes from the system's packages (scripts/setup.sh). Header-only libraries are copied into the build
+# tree one by one: pointing Emscripten at /usr/include would mix in the host's C library.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE NO_CMAKE_FIND_ROOT_PATH)
+
+set(third_party ${CMAKE_BINARY_DIR}/third_party)
+function(quadmark_copy_header header destination)
+  find_file(found_${destination} NAMES ${header} PATHS /usr/include /usr/local/include NO_CMAKE_FIND_ROOT_PATH NO_CACHE)
+  if(NOT found_${destination})
+    message(FATAL_ERROR "${header} not found: run scripts/setup.sh")
+  endif()
+  if(IS_DIRECTORY ${found_${destination}})
+    file(COPY ${found_${destination}}/ DESTINATION ${third_party}/${destination})
+  else()
+    configure_file(${found_${destination}} ${third_party}/${destination} COPYONLY)
+  endif()
+endfunction()
+
+quadmark_copy_header(tiny_gltf.h tiny_gltf.h)
+quadmark_copy_header(nlohmann nlohmann)
+quadmark_copy_header(stb/stb_image.h stb_image.h)
+quadmark_copy_header(stb/stb_image_write.h stb_image_write.h)
+configure_file(${third_party}/nlohmann/json.hpp ${third_party}/json.hpp COPYONLY)  # tinygltf includes it by this name
+
+add_library(quadmark_third_party INTERFACE)
+target_include_directories(quadmark_third_party SYSTEM INTERFACE ${third_party})
+target_link_libraries(quadmark_third_party INTERFACE Eigen3::Eigen)

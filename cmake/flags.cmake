@@ -1,0 +1,13 @@
+# Our own compile flags. Everything that decides bits must round alike natively and in wasm, hence -ffp-contract=off,
+# and never fast-math or -march.
+add_library(quadmark_flags INTERFACE)
+target_compile_options(quadmark_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                                                -ffp-contract=off -fno-fast-math)
+if(QUADMARK_SANITIZE)
+  target_compile_options(quadmark_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+                                                  -fno-omit-frame-pointer)
+  target_link_options(quadmark_flags INTERFACE -fsanitize=address,undefined)
+endif()
+if(EMSCRIPTEN)
+  target_compile_options(quadmark_flags INTERFACE -msimd128)
+endif()
