@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Embedding cells: the embedder's search and construction (section 3.2) and the decoder's enumeration.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "quadmark/adjacency.h"
+#include "quadmark/key.h"
+#include "quadmark/quad.h"
+
+namespace quadmark {
+
+/// Neighbourhoods larger than this are cut to their nearest members (D8): C(60, 4) is 487 635 sets, C(16, 4) is 1820.
+/// Ties in distance are broken by position, so the rule does not see the vertex order. The reader keeps twice as many
+/// because an affine map changes distances.
+inline constexpr std::size_t kMaxMembersWriting = 16, kMaxMembersReading = 24;
+
+/// How far rounding alone can take four points of a file off their common plane.
+struct Rounding {
+  double relative = 0;  ///< half a unit in the last place, as a fraction of a coordinate: 2^-24 or 2^-53
+  /// The unit in which gaps are measured: one coordinate's largest rounding error near these points, but never below
+  /// 1e-8 of the longer diagonal (D4).
+  [[nodiscard]] double unit(const Quad& quad, const double* positions) const;
+};
+[[nodiscard]] Rounding roundingOf(Precision precision);
+
+/// A gap of up to this many units counts as exactly coplanar.
+inline constexpr double kExactUnits = 8;
+
+struct SearchResult {
+  std::vector<Quad> cells;             ///< vertex disjoint, each exactly coplanar up to rounding
+  std::vector<double> positions;       ///< welded positions after construction, 3 per welded vertex
+  std::uint32_t naturalCells = 0;      ///< how many were coplanar before
+};
+
+/// Finds vertex-disjoint coplanar convex quadrilaterals in the neighbourhoods, in vertex order (section 4.2, steps 1-2):
+/// natural ones, longest diagonals first; else the smallest projection of one vertex onto the plane of three others, up
+/// to lambda * diagonal (D7). A vertex already used may still seed a neighbourhood (D9).
+/// @param diagonal  bounding-box diagonal, file units, > 0.
+/// Cost: linear, about 0.5 microseconds per vertex.
+[[nodiscard]] SearchResult searchCells(const Mesh& mesh, const WeldedMesh& welded, const PaperParams& params,
+                                       double diagonal, const Rounding& rounding);
+
+/// Every convex four-point set of the neighbourhoods whose gap is at most `maxUnits` rounding units, or
+/// `maxRelative` * longer diagonal, whichever is larger. Each set once, in an order that depends on vertex numbers.
+/// @param welded     connectivity.
+/// @param positions  3 per welded vertex; need not be welded.positions.
+/// @param skip       empty, or one byte per vertex: sets with a marked vertex are left out.
+/// Cost: linear for small gaps, about 0.2 microseconds per vertex.
+[[nodiscard]] std::vector<Quad> coplanarSets(const WeldedMesh& welded, const std::vector<double>& positions, int k,
+                                             const Rounding& rounding, double maxUnits, double maxRelative,
+                                             const std::vector<std::uint8_t>& skip = {});
+
+}  // namespace quadmark

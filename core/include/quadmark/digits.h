@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Digits L..H of a diagonal ratio: writing a code into them and reading it back (section 4.2 of the paper; D10-D14).
+#pragma once
+
+#include <cstdint>
+
+#include "quadmark/key.h"
+
+namespace quadmark {
+
+/// The smallest ratio the embedder writes: nearer to an end of its diagonal, a quadrilateral degenerates.
+inline constexpr double kMinRatio = 0.02;
+
+/// What stands in one ratio. r = prefix . code, read at digit H, e.g. L = 2, H = 4: 0.2 137 -> prefix 2, code 137.
+struct RatioDigits {
+  std::uint32_t prefix = 0;  ///< digits before L as an integer, 0 .. 10^(L-1) - 1
+  std::uint32_t code = 0;    ///< digits L..H as an integer, 0 .. 10^(H-L+1) - 1
+  double residue = 0;        ///< distance from the centre of the digit cell in units of 10^-H, [-0.5, 0.5)
+};
+
+/// The digit positions of one ratio, L..H.
+class DigitSlot {
+ public:
+  /// @param L, H  2 <= L <= H <= 9.
+  DigitSlot(int L, int H);
+
+  [[nodiscard]] std::uint32_t codeCount() const { return codes_; }
+  [[nodiscard]] int digitCount() const { return digits_; }
+  [[nodiscard]] double cellWidth() const { return 1 / scale_; }  ///< 10^-H
+
+  /// @param ratio  0 <= ratio < 1.
+  [[nodiscard]] RatioDigits read(double ratio) const;
+
+  /// The centre of the digit cell (D10): never an edge, which the first rounding error would cross.
+  [[nodiscard]] double centre(std::uint32_t prefix, std::uint32_t code) const {
+    return (double{1} * prefix * codes_ + code + 0.5) / scale_;
+  }
+
+  /// Largest ratio that is ever written, 0.5 - 10^-(L-1) / 4 (D12): beyond it a little noise would exchange the near
+  /// and the far end.
+  [[nodiscard]] double maxRatio() const { return maxRatio_; }
+
+  /// The prefix cut to its first `digits` digits.
+  [[nodiscard]] std::uint32_t coarsePrefix(std::uint32_t prefix, int digits) const;
+
+ private:
+  int L_, digits_;
+  std::uint32_t codes_;
+  double scale_, maxRatio_;
+};
+
+/// The two ratios of a cell: the smaller, r1, carries an index, the larger, r2, a piece.
+struct RatioPair {
+  double r1 = 0, r2 = 0;
+};
+
+/// Why a cell could not be read; anything but `ok` is a detected erasure, never a vote.
+enum class ReadingState : std::uint8_t { ok, ambiguousOrder, outOfRange, badIndex, badDigit };
+
+/// One cell as read.
+struct Reading {
+  ReadingState state = ReadingState::ok;
+  std::uint32_t index = 0;                ///< piece index
+  std::uint32_t piece = 0;                ///< 3 (H2 - L2 + 1) bits, as written (still padded by the key)
+  std::uint32_t prefix1 = 0, prefix2 = 0; ///< prefixes of r1 and r2: the cell's label
+  double residue1 = 0, residue2 = 0;      ///< see RatioDigits
+};
+
+class PairCodec {
+ public:
+  /// @param pieces  number of pieces, >= 1; indices from it upwards are detected erasures (D14).
+  PairCodec(const PaperParams& params, std::uint32_t pieces);
+
+  [[nodiscard]] const DigitSlot& indexSlot() const { return index_; }
+  [[nodiscard]] const DigitSlot& pieceSlot() const { return piece_; }
+  [[nodiscard]] int bitsPerPiece() const { return 3 * piece_.digitCount(); }
+  [[nodiscard]] std::uint32_t pieces() const { return pieces_; }
+
+  /// Reads both ratios of a cell, given in any order, each already measured from its nearer end.
+  [[nodiscard]] Reading read(double ratioA, double ratioB) const;
+
+  /// Are these prefixes distinct in the digits before the smaller L (D11)? Only then do r1 and r2 keep their order
+  /// whatever codes they carry.
+  [[nodiscard]] bool ordered(std::uint32_t prefix1, std::uint32_t prefix2) const {
+    return index_.coarsePrefix(prefix1, coarse_) < piece_.coarsePrefix(prefix2, coarse_);
+  }
+
+  /// The cheapest legal pair that carries (index, piece) in a cell whose ratios are `from` (D10-D12).
+  /// Instead of always keeping the prefix, as the paper does, the nearest legal digit cell is taken: the decoder needs
+  /// no natural prefix, only an ordered pair, and this halves the energy of the change.
+  /// @param from      current ratios: `from.r1` of the diagonal that shall carry the index. Any order.
+  /// @param octal     the piece as decimal digits 0..7, from octalDigits().
+  /// @param weight1, weight2  cost of moving each ratio: squared length of its diagonal.
+  /// @param cost      receives sum of weight * ((r - r') / (1 - r'))^2, the squared displacement of Eq. (4).
+  /// @return false when no legal pair exists.
+  [[nodiscard]] bool nearest(RatioPair from, std::uint32_t index, std::uint32_t octal, double weight1, double weight2,
+                             RatioPair& to, double& cost) const;
+
+ private:
+  DigitSlot index_, piece_;
+  int coarse_;
+  std::uint32_t pieces_;
+};
+
+/// Octal digits of `bits` written in decimal: 0b111'000'101 -> 705. `digits` octal digits.
+[[nodiscard]] std::uint32_t octalDigits(std::uint32_t bits, int digits);
+/// The inverse; false when a decimal digit is 8 or 9 (D14).
+[[nodiscard]] bool fromOctalDigits(std::uint32_t decimal, int digits, std::uint32_t& bits);
+
+}  // namespace quadmark

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "quadmark/adjacency.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace quadmark {
+namespace {
+
+std::uint64_t bitsOf(double value) {
+  value = value == 0 ? 0.0 : value;  // -0 and +0 are one position
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+std::uint64_t mix(std::uint64_t x) {
+  x ^= x >> 32;
+  x *= 0xd6e8feb86659fd93u;
+  x ^= x >> 32;
+  return x;
+}
+
+std::uint64_t hashPosition(const double* p, std::uint32_t group) {
+  return mix(bitsOf(p[0]) + mix(bitsOf(p[1]) * 3 + mix(bitsOf(p[2]) * 5 + group)));
+}
+
+std::vector<std::uint8_t> referencedVertices(const Mesh& mesh) {
+  std::vector<std::uint8_t> used(mesh.vertexCount(), 0);
+  for (std::uint32_t v : mesh.faceVertices) used[v] = 1;
+  return used;
+}
+
+// Open addressing over vertex indices: 4 bytes a slot, so two million vertices need 16 MB while welding.
+void weldPositions(const Mesh& mesh, WeldedMesh& out) {
+  const std::size_t count = mesh.vertexCount();
+  const std::vector<std::uint8_t> used = referencedVertices(mesh);
+  std::size_t capacity = 16;
+  while (capacity < 2 * count) capacity *= 2;
+  std::vector<std::uint32_t> slots(capacity, kNoVertex);
+  out.weldedOf.assign(count, kNoVertex);
+  out.positions.reserve(3 * count);
+  std::vector<std::uint32_t> welderGroup;
+  const bool grouped = !mesh.groups.empty();
+  if (grouped) welderGroup.reserve(count);
+  for (std::size_t v = 0; v < count; ++v) {
+    if (!used[v]) continue;
+    const double* p = &mesh.positions[3 * v];
+    const std::uint32_t group = grouped ? mesh.groups[v] : 0;
+    std::size_t slot = hashPosition(p, group) & (capacity - 1);
+    while (slots[slot] != kNoVertex) {
+      const std::uint32_t w = slots[slot];
+      const double* q = &out.positions[3 * std::size_t{w}];
+      if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2] && (!grouped || welderGroup[w] == group)) break;
+      slot = (slot + 1) & (capacity - 1);
+    }
+    if (slots[slot] == kNoVertex) {
+      slots[slot] = static_cast<std::uint32_t>(out.positions.size() / 3);
+      out.positions.insert(out.positions.end(), p, p + 3);
+      if (grouped) welderGroup.push_back(group);
+    }
+    out.weldedOf[v] = slots[slot];
+  }
+  out.positions.shrink_to_fit();
+}
+
+template <class Visit>
+void forEachEdge(const Mesh& mesh, const WeldedMesh& welded, const Visit& visit) {
+  const std::size_t faces = mesh.faceCount();
+  for (std::size_t f = 0; f < faces; ++f) {
+    const std::size_t begin = mesh.faceBegin(f), end = mesh.faceEnd(f);
+    if (begin == end) continue;
+    std::uint32_t a = welded.weldedOf[mesh.faceVertices[end - 1]];
+    for (std::size_t corner = begin; corner < end; ++corner) {
+      const std::uint32_t b = welded.weldedOf[mesh.faceVertices[corner]];
+      if (a != b) visit(a, b);
+      a = b;
+    }
+  }
+}
+
+// Every face edge is entered from both ends, so an edge of two faces stands twice; sorting each vertex's short list
+// and compacting in place removes the doubles without a second array.
+void collectEdges(const Mesh& mesh, WeldedMesh& out) {
+  const std::size_t count = out.vertexCount();
+  std::vector<std::uint32_t> cursor(count + 1, 0);
+  forEachEdge(mesh, out, [&](std::uint32_t a, std::uint32_t b) {
+    ++cursor[a];
+    ++cursor[b];
+  });
+  std::uint32_t total = 0;
+  for (std::size_t v = 0; v <= count; ++v) {
+    const std::uint32_t degree = v < count ? cursor[v] : 0;
+    cursor[v] = total;
+    total += degree;
+  }
+  out.edgeOffsets.assign(cursor.begin(), cursor.end());
+  std::vector<std::uint32_t>& list = out.neighbours;
+  list.resize(total);
+  forEachEdge(mesh, out, [&](std::uint32_t a, std::uint32_t b) {
+    list[cursor[a]++] = b;
+    list[cursor[b]++] = a;
+  });
+  std::uint32_t write = 0;
+  for (std::size_t v = 0; v < count; ++v) {
+    const auto begin = list.begin() + out.edgeOffsets[v], end = list.begin() + out.edgeOffsets[v + 1];
+    std::sort(begin, end);
+    const auto last = std::unique(begin, end);
+    out.edgeOffsets[v] = write;
+    std::copy(begin, last, list.begin() + write);
+    write += static_cast<std::uint32_t>(last - begin);
+  }
+  out.edgeOffsets[count] = write;
+  list.resize(write);
+  list.shrink_to_fit();
+}
+
+}  // namespace
+
+WeldedMesh weld(const Mesh& mesh) {
+  WeldedMesh out;
+  weldPositions(mesh, out);
+  collectEdges(mesh, out);
+  return out;
+}
+
+FaceRings faceRings(const Mesh& mesh, const WeldedMesh& welded) {
+  FaceRings out;
+  const std::size_t count = welded.vertexCount(), faces = mesh.faceCount();
+  out.offsets.assign(count + 1, 0);
+  const auto forEachCorner = [&](const auto& visit) {
+    for (std::size_t f = 0; f < faces; ++f)
+      for (std::size_t c = mesh.faceBegin(f); c < mesh.faceEnd(f); ++c) {
+        const std::uint32_t w = welded.weldedOf[mesh.faceVertices[c]];
+        // A degenerate face may visit a vertex twice. Only a short way back: a repeat costs a little time, never a
+        // wrong answer, and a hostile million-gon must not cost a quadratic scan.
+        bool repeated = false;
+        for (std::size_t e = std::max(mesh.faceBegin(f), c < 8 ? std::size_t{0} : c - 8); e < c && !repeated; ++e)
+          repeated = welded.weldedOf[mesh.faceVertices[e]] == w;
+        if (!repeated) visit(w, static_cast<std::uint32_t>(f));
+      }
+  };
+  forEachCorner([&](std::uint32_t w, std::uint32_t) { ++out.offsets[w]; });
+  std::uint32_t total = 0;
+  for (std::uint32_t& offset : out.offsets) {
+    const std::uint32_t degree = offset;
+    offset = total;
+    total += degree;
+  }
+  out.faces.resize(total);
+  forEachCorner([&](std::uint32_t w, std::uint32_t f) { out.faces[out.offsets[w]++] = f; });
+  for (std::size_t v = count; v > 0; --v) out.offsets[v] = out.offsets[v - 1];  // undo the cursor's advance
+  out.offsets[0] = 0;
+  return out;
+}
+
+bool neighbourhood(const WeldedMesh& welded, std::uint32_t vertex, int k, std::vector<std::uint32_t>& out) {
+  out.clear();
+  out.push_back(vertex);
+  std::size_t ringBegin = 0;
+  for (int ring = 0; ring < k; ++ring) {
+    const auto ringEnd = static_cast<std::ptrdiff_t>(out.size());
+    for (std::size_t i = ringBegin; i < static_cast<std::size_t>(ringEnd); ++i) {
+      const auto next = welded.neighboursOf(out[i]);
+      if (ring > 0 && out.size() + next.size() > kMaxNeighbourhood) return false;
+      out.insert(out.end(), next.begin(), next.end());
+    }
+    if (ring > 0) {  // the first ring is unique by construction
+      std::sort(out.begin() + ringEnd, out.end());
+      auto last = std::unique(out.begin() + ringEnd, out.end());
+      last = std::remove_if(out.begin() + ringEnd, last, [&](std::uint32_t v) {
+        return std::find(out.begin(), out.begin() + ringEnd, v) != out.begin() + ringEnd;
+      });
+      out.erase(last, out.end());
+    }
+    ringBegin = static_cast<std::size_t>(ringEnd);
+  }
+  return true;
+}
+
+}  // namespace quadmark

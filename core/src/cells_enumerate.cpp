@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// The decoder's enumeration of coplanar sets: all of them, so that nothing depends on the order of the vertices.
+#include <cmath>
+
+#include "quadmark/cells.h"
+#include "ring_sets.h"
+
+namespace quadmark {
+namespace {
+
+// A set is seen from several seeds. Chains by lowest vertex find the repeats without sorting or hashing all sets.
+class UniqueSets {
+ public:
+  explicit UniqueSets(std::uint32_t vertices) : head_(vertices, kNoVertex) {}
+
+  // Expects ids sorted ascending; true the first time.
+  bool insert(const std::uint32_t ids[4]) {
+    for (std::uint32_t at = head_[ids[0]]; at != kNoVertex; at = entries_[at].next) {
+      const Entry& e = entries_[at];
+      if (e.id[0] == ids[1] && e.id[1] == ids[2] && e.id[2] == ids[3]) return false;
+    }
+    entries_.push_back({{ids[1], ids[2], ids[3]}, head_[ids[0]]});
+    head_[ids[0]] = static_cast<std::uint32_t>(entries_.size() - 1);
+    return true;
+  }
+
+ private:
+  struct Entry {
+    std::uint32_t id[3];
+    std::uint32_t next;
+  };
+  std::vector<std::uint32_t> head_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace
+
+double Rounding::unit(const Quad& quad, const double* positions) const {
+  double magnitude = 0;
+  for (std::uint32_t w : {quad.a, quad.b, quad.c, quad.d})
+    for (int k = 0; k < 3; ++k) magnitude = std::max(magnitude, std::fabs(positions[3 * std::size_t{w} + k]));
+  return std::max(relative * magnitude, 1e-8 * quad.longerDiagonal());
+}
+
+Rounding roundingOf(Precision precision) {
+  return {precision == Precision::float32 ? 1.0 / (1u << 24) : 1.0 / (1ull << 53)};
+}
+
+void keepNearest(std::vector<std::uint32_t>& members, std::uint32_t seed, const double* positions, std::size_t limit) {
+  if (members.size() <= limit) return;
+  struct Ranked {
+    double distance2;
+    const double* p;
+    std::uint32_t vertex;
+  };
+  const double* o = positions + 3 * std::size_t{seed};
+  std::vector<Ranked> ranked;
+  ranked.reserve(members.size());
+  for (std::uint32_t w : members) {
+    const double* p = positions + 3 * std::size_t{w};
+    const double x = p[0] - o[0], y = p[1] - o[1], z = p[2] - o[2];
+    ranked.push_back({x * x + y * y + z * z, p, w});
+  }
+  const auto nearer = [](const Ranked& a, const Ranked& b) {
+    if (a.distance2 != b.distance2) return a.distance2 < b.distance2;
+    for (int k = 0; k < 3; ++k)
+      if (a.p[k] != b.p[k]) return a.p[k] < b.p[k];
+    return a.vertex < b.vertex;  // equal positions in different seam groups
+  };
+  std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(limit), ranked.end(), nearer);
+  members.clear();
+  for (std::size_t i = 0; i < limit; ++i) members.push_back(ranked[i].vertex);
+}
+
+std::vector<Quad> coplanarSets(const WeldedMesh& welded, const std::vector<double>& positions, int k,
+                               const Rounding& rounding, double maxUnits, double maxRelative,
+                               const std::vector<std::uint8_t>& skip) {
+  std::vector<Quad> out;
+  UniqueSets unique(welded.vertexCount());
+  std::vector<std::uint32_t> members;
+  RingSets ring;
+  for (std::uint32_t v = 0; v < welded.vertexCount(); ++v) {
+    if (!neighbourhood(welded, v, k, members)) continue;
+    if (!skip.empty()) std::erase_if(members, [&](std::uint32_t w) { return skip[w] != 0; });
+    if (members.size() < 4) continue;
+    keepNearest(members, v, positions.data(), kMaxMembersReading);
+    ring.load(members, v, positions.data(), false);
+
+    // Cheap test first: gap = |determinant| / |e x f|, and two chords of a ball of radius R span at most (2 R)^2.
+    const double radius2 = ring.radius2();
+    double magnitude = 0;
+    for (std::uint32_t w : members)
+      for (int axis = 0; axis < 3; ++axis)
+        magnitude = std::max(magnitude, std::fabs(positions[3 * std::size_t{w} + axis]));
+    const double longest = 2 * std::sqrt(radius2);
+    const double reach =
+        std::max(maxUnits * std::max(rounding.relative * magnitude, 1e-8 * longest), maxRelative * longest);
+    const double limit = 1.0001 * reach * 4 * radius2;
+    ring.forEach([&](int a, int b, int c, int d, double determinant) {
+      if (!(std::fabs(determinant) <= limit)) return;
+      std::uint32_t ids[4] = {members[a], members[b], members[c], members[d]};
+      Quad quad;
+      if (!makeQuad(ids, positions.data(), kMinTriangleReading, quad)) return;
+      if (quad.gap > std::max(maxUnits * rounding.unit(quad, positions.data()), maxRelative * quad.longerDiagonal()))
+        return;
+      std::sort(ids, ids + 4);
+      if (unique.insert(ids)) out.push_back(quad);
+    });
+  }
+  return out;
+}
+
+}  // namespace quadmark

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "quadmark/digits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadmark {
+namespace {
+
+std::uint32_t powerOfTen(int exponent) {
+  std::uint32_t value = 1;
+  while (exponent-- > 0) value *= 10;
+  return value;
+}
+
+// Candidates for one ratio: the digit cells with this code nearest to the present value, best first by distance.
+struct Choices {
+  double ratio[3];
+  std::uint32_t prefix[3];
+  int count = 0;
+};
+
+Choices nearestCells(const DigitSlot& slot, double from, std::uint32_t code) {
+  Choices out;
+  const auto natural = static_cast<std::int64_t>(slot.read(from).prefix);
+  for (std::int64_t prefix = natural - 1; prefix <= natural + 1; ++prefix) {
+    if (prefix < 0) continue;
+    const double ratio = slot.centre(static_cast<std::uint32_t>(prefix), code);
+    if (ratio < kMinRatio || ratio > slot.maxRatio()) continue;
+    out.ratio[out.count] = ratio;
+    out.prefix[out.count++] = static_cast<std::uint32_t>(prefix);
+  }
+  if (out.count == 0) {  // the pulled-in zone near 0.5, or code 0 below the least ratio: one step further
+    for (std::int64_t prefix = natural - 2; prefix <= natural + 2; prefix += 4) {
+      if (prefix < 0) continue;
+      const double ratio = slot.centre(static_cast<std::uint32_t>(prefix), code);
+      if (ratio < kMinRatio || ratio > slot.maxRatio()) continue;
+      out.ratio[out.count] = ratio;
+      out.prefix[out.count++] = static_cast<std::uint32_t>(prefix);
+    }
+  }
+  return out;
+}
+
+double moveCost(double from, double to, double weight) {
+  const double step = (from - to) / (1 - to);
+  return weight * step * step;
+}
+
+}  // namespace
+
+DigitSlot::DigitSlot(int L, int H)
+    : L_(L), digits_(H - L + 1), codes_(powerOfTen(H - L + 1)), scale_(powerOfTen(H)),
+      maxRatio_(0.5 - 0.25 / powerOfTen(L - 1)) {}
+
+RatioDigits DigitSlot::read(double ratio) const {
+  const double scaled = ratio * scale_;
+  const double cell = std::floor(scaled);
+  const auto whole = static_cast<std::uint64_t>(cell);
+  return {static_cast<std::uint32_t>(whole / codes_), static_cast<std::uint32_t>(whole % codes_), scaled - cell - 0.5};
+}
+
+std::uint32_t DigitSlot::coarsePrefix(std::uint32_t prefix, int digits) const {
+  for (int extra = L_ - 1 - digits; extra > 0; --extra) prefix /= 10;
+  return prefix;
+}
+
+PairCodec::PairCodec(const PaperParams& params, std::uint32_t pieces)
+    : index_(params.L1, params.H1), piece_(params.L2, params.H2), coarse_(std::min(params.L1, params.L2) - 1),
+      pieces_(pieces) {}
+
+Reading PairCodec::read(double ratioA, double ratioB) const {
+  Reading out;
+  const double r1 = std::min(ratioA, ratioB), r2 = std::max(ratioA, ratioB);
+  // One digit cell of slack: the embedder stays inside, rounding may step out a little.
+  if (r1 < kMinRatio - index_.cellWidth() || r2 > piece_.maxRatio() + piece_.cellWidth() ||
+      r1 > index_.maxRatio() + index_.cellWidth() || r1 < 0) {
+    out.state = ReadingState::outOfRange;
+    return out;
+  }
+  const RatioDigits first = index_.read(r1), second = piece_.read(r2);
+  out.index = first.code;
+  out.prefix1 = first.prefix;
+  out.prefix2 = second.prefix;
+  out.residue1 = first.residue;
+  out.residue2 = second.residue;
+  if (!ordered(first.prefix, second.prefix)) {
+    out.state = ReadingState::ambiguousOrder;
+  } else if (first.code >= pieces_) {
+    out.state = ReadingState::badIndex;
+  } else if (!fromOctalDigits(second.code, piece_.digitCount(), out.piece)) {
+    out.state = ReadingState::badDigit;
+  }
+  return out;
+}
+
+bool PairCodec::nearest(RatioPair from, std::uint32_t index, std::uint32_t octal, double weight1, double weight2,
+                        RatioPair& to, double& cost) const {
+  const Choices first = nearestCells(index_, from.r1, index), second = nearestCells(piece_, from.r2, octal);
+  bool found = false;
+  for (int i = 0; i < first.count; ++i)
+    for (int j = 0; j < second.count; ++j) {
+      if (!ordered(first.prefix[i], second.prefix[j])) continue;
+      const double c = moveCost(from.r1, first.ratio[i], weight1) + moveCost(from.r2, second.ratio[j], weight2);
+      if (found && c >= cost) continue;
+      found = true;
+      cost = c;
+      to = {first.ratio[i], second.ratio[j]};
+    }
+  return found;
+}
+
+std::uint32_t octalDigits(std::uint32_t bits, int digits) {
+  std::uint32_t decimal = 0, place = 1;
+  for (int i = 0; i < digits; ++i, bits >>= 3, place *= 10) decimal += (bits & 7) * place;
+  return decimal;
+}
+
+bool fromOctalDigits(std::uint32_t decimal, int digits, std::uint32_t& bits) {
+  bits = 0;
+  for (int i = 0; i < digits; ++i, decimal /= 10) {
+    const std::uint32_t digit = decimal % 10;
+    if (digit > 7) return false;
+    bits |= digit << (3 * i);
+  }
+  return true;
+}
+
+}  // namespace quadmark
