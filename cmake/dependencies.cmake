@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Third-party code comes from the system's packages (scripts/setup.sh). Header-only libraries are copied into the build
 # tree one by one: pointing Emscripten at /usr/include would mix in the host's C library.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE NO_CMAKE_FIND_ROOT_PATH)
@@ -24,3 +25,7 @@ configure_file(${third_party}/nlohmann/json.hpp ${third_party}/json.hpp COPYONLY
 add_library(quadmark_third_party INTERFACE)
 target_include_directories(quadmark_third_party SYSTEM INTERFACE ${third_party})
 target_link_libraries(quadmark_third_party INTERFACE Eigen3::Eigen)
+
+# meshoptimizer's sources, unpacked by scripts/setup.sh: one version for native and wasm gives equal bits.
+set(QUADMARK_MESHOPTIMIZER_SOURCE "${PROJECT_SOURCE_DIR}/build/deps/meshoptimizer" CACHE PATH
+    "Unpacked meshoptimizer source; without it the native build uses the system's library")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Our own compile flags. Everything that decides bits must round alike natively and in wasm, hence -ffp-contract=off,
 # and never fast-math or -march.
 add_library(quadmark_flags INTERFACE)
@@ -10,4 +11,10 @@ if(QUADMARK_SANITIZE)
 endif()
 if(EMSCRIPTEN)
   target_compile_options(quadmark_flags INTERFACE -msimd128)
+endif()
+
+# Rebuilding is most of the waiting time; ccache does not know em++, hence natively only.
+find_program(QUADMARK_CCACHE ccache)
+if(QUADMARK_CCACHE AND NOT EMSCRIPTEN AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${QUADMARK_CCACHE})
 endif()

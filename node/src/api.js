@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// The public calls over a Loader: they check types, convert plain data, and turn failures into QuadmarkError. What a
+// value may be (ranges, sizes, formats) is the core's to decide.
+import { toBytes, toEntries, toIdDigits, toImage, toKeyJson, known, isObject } from './arguments.js';
+import { QuadmarkError } from './error.js';
+
+/** The value of a binding, or its failure thrown. */
+export function unwrap(result) {
+  if (result.error) throw new QuadmarkError(result.error.code, result.error.message);
+  return result;
+}
+
+function throwIfAborted(signal) {
+  if (signal?.aborted) throw new QuadmarkError('aborted', 'cancelled by the caller', { cause: signal.reason });
+}
+
+/**
+ * Runs a long call with progress and cancellation. An exception in the caller's onProgress must not unwind through
+ * wasm frames (they would never clean up): it is held back, the core is told to stop, and it is thrown afterwards.
+ */
+async function runLong(loader, options, use) {
+  const { onProgress, signal } = known('options', options ?? {}, ['onProgress', 'signal']);
+  if (onProgress !== undefined && typeof onProgress !== 'function') {
+    throw new QuadmarkError('bad_option', 'options.onProgress: expected a function');
+  }
+  if (signal !== undefined && typeof signal?.aborted !== 'boolean') {
+    throw new QuadmarkError('bad_option', 'options.signal: expected an AbortSignal');
+  }
+  throwIfAborted(signal);
+  let thrown;
+  const progress = onProgress || signal
+    ? (stage, done) => {
+        try {
+          onProgress?.({ stage, done });
+        } catch (error) {
+          thrown = { error };
+          return false;
+        }
+        return !signal?.aborted;
+      }
+    : undefined;
+  return loader.call((api) => {
+    throwIfAborted(signal);
+    const result = use(api, progress);
+    if (result.error?.code === 'aborted') {
+      if (thrown) return { thrown };
+      throwIfAborted(signal);
+    }
+    return unwrap(result);
+  }).then((result) => {
+    if (result.thrown) throw result.thrown.error;
+    return result;
+  });
+}
+
+/** Binds the calls to one module. Documented in index.d.ts. */
+export function createApi(loader) {
+  return {
+    async embed(model, request) {
+      const { key, image, id, resources, options } =
+        known('request', request, ['key', 'image', 'id', 'resources', 'options']);
+      if ((image == null) === (id == null)) {
+        throw new QuadmarkError('bad_option', 'embed: give exactly one of image and id');
+      }
+      const bytes = toBytes('model', model);
+      const entries = toEntries(resources);
+      const mark = image == null ? { id: toIdDigits(id) } : { image: toImage('image', image) };
+      const keyJson = toKeyJson(key);
+      const result = await runLong(loader, options, (api, progress) =>
+        api.embed(bytes, entries, { key: keyJson, ...mark, progress }));
+      return {
+        bytes: result.bytes,
+        resources: Object.fromEntries(result.resources),
+        report: JSON.parse(result.report),
+      };
+    },
+
+    async extract(model, request) {
+      const { key, reference, resources, options } =
+        known('request', request, ['key', 'reference', 'resources', 'options']);
+      const bytes = toBytes('model', model);
+      const entries = toEntries(resources);
+      const expected = reference == null ? undefined : toImage('reference', reference);
+      const keyJson = toKeyJson(key);
+      const result = await runLong(loader, options, (api, progress) =>
+        api.extract(bytes, entries, { key: keyJson, reference: expected, progress }));
+      return { ...result, report: JSON.parse(result.report) };
+    },
+
+    async inspect(model, request = {}) {
+      const { resources } = known('request', request, ['resources']);
+      const bytes = toBytes('model', model);
+      const entries = toEntries(resources);
+      return loader.call((api) => JSON.parse(unwrap(api.inspect(bytes, entries)).report));
+    },
+
+    async externalUris(model) {
+      const bytes = toBytes('model', model);
+      return loader.call((api) => unwrap(api.externalUris(bytes)).uris);
+    },
+
+    async createKey(request) {
+      const names = ['owner', 'scheme', 'width', 'height', 'id', 'L', 'H1', 'L1', 'H2', 'L2', 'lambda', 'tau', 'k',
+        'keyedCells', 'scrambleOrder'];
+      const { owner = '', scheme = 'paper', id = false, ...params } = known('request', request, names);
+      if (typeof owner !== 'string') throw new QuadmarkError('bad_option', 'owner: expected text');
+      if (scheme !== 'paper') {
+        throw new QuadmarkError('bad_option', `scheme ${JSON.stringify(scheme)} is not available in this version, only "paper"`);
+      }
+      for (const name of ['keyedCells', 'scrambleOrder']) {
+        if (params[name] !== undefined && typeof params[name] !== 'boolean') {
+          throw new QuadmarkError('bad_option', `${name}: expected true or false`);
+        }
+      }
+      if (typeof id !== 'boolean') throw new QuadmarkError('bad_option', 'id: expected true (a key for 64-bit IDs) or false');
+      const hasSize = params.width !== undefined || params.height !== undefined;
+      if (id === hasSize) throw new QuadmarkError('bad_option', 'createKey: give either width and height, or id: true');
+      const digits = ['H1', 'L1', 'H2', 'L2'].filter((name) => params[name] !== undefined);
+      if (digits.length !== 0 && digits.length !== 4) {
+        throw new QuadmarkError('bad_option', `digit positions: ${digits.join(', ')} given, but H1, L1, H2, L2 go together`);
+      }
+      const secret = crypto.getRandomValues(new Uint8Array(32));
+      return loader.call((api) =>
+        JSON.parse(unwrap(api.createKey({ ...params, secret, owner, payload: id ? 'id' : 'image' })).key));
+    },
+
+    async parseKey(key) {
+      const json = toKeyJson(key);
+      return loader.call((api) => JSON.parse(unwrap(api.parseKey(json)).key));
+    },
+
+    async decodeImage(png, request = {}) {
+      const { threshold } = known('request', request, ['threshold']);
+      if (threshold !== undefined && !(threshold >= 0 && threshold <= 1)) {
+        throw new QuadmarkError('bad_option', 'threshold: expected a number from 0 to 1');
+      }
+      const bytes = toBytes('png', png);
+      return loader.call((api) => unwrap(api.decodeImage(bytes, threshold ?? -1)).image);
+    },
+
+    async encodeImage(image) {
+      if (!isObject(image) || image instanceof Uint8Array) {
+        throw new QuadmarkError('bad_option', 'image: expected { width, height, bits }');
+      }
+      const erased = image.erased == null ? undefined : toBytes('image.erased', image.erased);
+      const value = { ...toImage('image', image), erased };
+      return loader.call((api) => unwrap(api.encodeImage(value)).png);
+    },
+
+    async version() {
+      return loader.call((api) => api.version());
+    },
+
+    async load(request = {}) {
+      const { wasm } = known('request', request, ['wasm']);
+      await loader.load(wasm);
+    },
+
+    unload() {
+      loader.unload();
+    },
+
+    memoryBytes() {
+      return loader.memoryBytes;
+    },
+  };
+}

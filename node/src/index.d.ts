@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Types of the package `quadmark`. Plain data in, plain data out; importing instantiates nothing.
+
+/** Why a call failed; see the table in the README. */
+export type ErrorCode =
+  | 'bad_file' | 'unsupported_file' | 'bad_mesh' | 'bad_option' | 'bad_key' | 'bad_image' | 'capacity'
+  | 'unsupported_version' | 'too_large' | 'io' | 'aborted' | 'internal';
+
+/** Every failure of this package. `message` is one sentence naming the place. */
+export class QuadmarkError extends Error {
+  constructor(code: ErrorCode, message: string, options?: { cause?: unknown });
+  readonly name: 'QuadmarkError';
+  readonly code: ErrorCode;
+}
+
+/** Exit status of the command line by error code. */
+export const ERROR_EXIT_STATUS: Readonly<Record<ErrorCode, 1 | 2>>;
+
+/** Bytes of a model: GLB, glTF JSON or PLY, found by content. */
+export type Bytes = Uint8Array | ArrayBuffer;
+
+/** Files a glTF refers to, by URI exactly as the glTF spells it. */
+export type Resources = Record<string, Bytes> | ReadonlyMap<string, Bytes>;
+
+/** One bit per pixel: bits[y * width + x] is 1 for ink (dark), 0 for light; rows from the top. */
+export interface BitImage {
+  width: number;
+  height: number;
+  bits: Uint8Array;
+}
+
+/** A PNG file, thresholded on reading, or the pixels themselves. */
+export type ImageInput = Bytes | { width: number; height: number; bits: Uint8Array | readonly number[] };
+
+/** Parameters of the `paper` scheme; part of the key. */
+export interface PaperParams {
+  /** Decimal digits of the ratios that carry index (1) and piece (2): positions L..H, 2 to 9. */
+  H1: number; L1: number; H2: number; L2: number;
+  /** Largest displacement that forming a cell may cause, fraction of the bounding-box diagonal. */
+  lambda: number;
+  /** Largest deviation from a plane that reading tolerates, fraction of the longer diagonal. */
+  tau: number;
+  /** Neighbourhood radius in edges, 1 to 3. */
+  k: number;
+  width: number;
+  height: number;
+  [name: string]: unknown;
+}
+
+/** Content of a key file. Secret: whoever has it can read, and forge, the mark. */
+export interface Key {
+  quadmark: 1;
+  scheme: 'paper';
+  /** Base64 of 32 random bytes. */
+  secret: string;
+  owner: string;
+  params: PaperParams;
+}
+
+/** A key, or its file as text or bytes. */
+export type KeyInput = Key | string | Bytes;
+
+export interface Progress {
+  /** "read", "search", "write", "verify" or "report". */
+  stage: string;
+  /** Share done of the whole call, 0 to 1. */
+  done: number;
+}
+
+export interface CallOptions {
+  /** Called synchronously between steps. An exception thrown here cancels the call and is passed on. */
+  onProgress?: (progress: Progress) => void;
+  /** Checked before the start and at every progress step; the call then fails with `aborted`. */
+  signal?: AbortSignal;
+}
+
+/** Facts about what was done: the JSON object described in docs/format.md. */
+export interface Report {
+  warnings: string[];
+  [name: string]: unknown;
+}
+
+export interface EmbedRequest {
+  key: KeyInput;
+  /** The picture to embed, of the key's size. Exactly one of `image` and `id`. */
+  image?: ImageInput;
+  /** A 64-bit ID, for keys made for IDs: 1 to 16 hexadecimal digits, or a bigint. */
+  id?: string | bigint;
+  resources?: Resources;
+  options?: CallOptions;
+}
+
+export interface EmbedResult {
+  /** The marked file: the input with other position components (and glTF min / max), nothing else. */
+  bytes: Uint8Array;
+  /** Those external buffers that changed, by the same URI. */
+  resources: Record<string, Uint8Array>;
+  report: Report;
+}
+
+/** Marks a model. Equal arguments give equal bytes on every platform. */
+export function embed(model: Bytes, request: EmbedRequest): Promise<EmbedResult>;
+
+export interface ExtractRequest {
+  key: KeyInput;
+  /** Compare with this image and let its agreement count for the verdict. */
+  reference?: ImageInput;
+  resources?: Resources;
+  options?: CallOptions;
+}
+
+export interface ExtractedImage extends BitImage {
+  /** Per pixel: 1 = could not be read (its bit is 0). */
+  erased: Uint8Array;
+  /** Per pixel: 0 (a guess) to 1 (certain). */
+  confidence: Float32Array;
+  /** The image as PNG, ink black, unread pixels mid grey. */
+  png: Uint8Array;
+  /** The confidence as PNG, 1 = white. */
+  confidencePng: Uint8Array;
+}
+
+export interface ExtractResult {
+  /** "none" (no mark of this key) is a result, not an error. */
+  verdict: 'match' | 'none' | 'inconclusive';
+  /** Upper bound on the probability of this much agreement without this key's mark. */
+  falsePositive: number;
+  image: ExtractedImage;
+  /** 16 hexadecimal digits, for ID keys with verdict "match"; else null. */
+  id: string | null;
+  report: Report;
+}
+
+/** Reads the mark that `key` describes. */
+export function extract(model: Bytes, request: ExtractRequest): Promise<ExtractResult>;
+
+/** Describes a model without a key: format, sizes, capacity. */
+export function inspect(model: Bytes, request?: { resources?: Resources }): Promise<Report>;
+
+/** URIs of the external buffers that a glTF needs as `resources`; empty for GLB and PLY. */
+export function externalUris(model: Bytes): Promise<string[]>;
+
+export interface KeyRequest {
+  /** Free text kept in the key file. */
+  owner?: string;
+  scheme?: 'paper';
+  /** Size of the image in pixels, 1 to 1024 a side ... */
+  width?: number;
+  height?: number;
+  /** ... or a key for 64-bit IDs. */
+  id?: boolean;
+  /** First digit position that carries data, 2 to 8: 2 suits scans, 3 CAD models. Default 2. */
+  L?: number;
+  /** All four digit positions at once; default: as few as the payload needs, from L. */
+  H1?: number; L1?: number; H2?: number; L2?: number;
+  lambda?: number;
+  tau?: number;
+  k?: number;
+  /** Only cells picked by the key carry data. */
+  keyedCells?: boolean;
+  /** Embedding also permutes the order of the vertices. */
+  scrambleOrder?: boolean;
+}
+
+/** Makes a key around 32 random bytes of the platform's generator. */
+export function createKey(request: KeyRequest): Promise<Key>;
+
+/** Checks a key and returns it in normal form; fails with `bad_key` or `unsupported_version`. */
+export function parseKey(key: KeyInput): Promise<Key>;
+
+/** Decodes a PNG and thresholds its luminance (0 to 1; default: Otsu's method picks it). */
+export function decodeImage(png: Bytes, request?: { threshold?: number }): Promise<BitImage>;
+
+/** Encodes ink as black on white; pixels with a nonzero `erased` become mid grey. */
+export function encodeImage(image: {
+  width: number; height: number; bits: Uint8Array | readonly number[]; erased?: Uint8Array;
+}): Promise<Uint8Array>;
+
+/** Version of the core, "major.minor.patch". */
+export function version(): Promise<string>;
+
+/** What the module may be loaded from. */
+export type WasmSource = string | URL | Response | Bytes | WebAssembly.Module;
+
+/**
+ * Optional: loads the module ahead of the first call, or from another place than the package's own file.
+ * Does nothing once it is loaded.
+ */
+export function load(request?: { wasm?: WasmSource | Promise<WasmSource> }): Promise<void>;
+
+/** Frees the module's memory (wasm memory never shrinks otherwise); the next call loads it again. */
+export function unload(): void;
+
+/** Bytes of module memory held now; 0 when it is not loaded. */
+export function memoryBytes(): number;

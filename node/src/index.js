@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// Entry for browsers, workers and bundlers: the literal URL is what makes a bundler ship the wasm.
+import factory from '../dist/quadmark.js';
+import { createApi } from './api.js';
+import { Loader } from './load.js';
+
+export { ERROR_EXIT_STATUS, QuadmarkError } from './error.js';
+
+const loader = new Loader(factory, () => new URL('../dist/quadmark.wasm', import.meta.url));
+
+export const {
+  embed, extract, inspect, externalUris, createKey, parseKey, decodeImage, encodeImage, version, load, unload, memoryBytes,
+} = createApi(loader);

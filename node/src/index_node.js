@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Entry for Node (threads included): the wasm is read from the file beside the glue.
+import { readFile } from 'node:fs/promises';
+import factory from '../dist/quadmark.js';
+import { createApi } from './api.js';
+import { Loader } from './load.js';
+
+export { ERROR_EXIT_STATUS, QuadmarkError } from './error.js';
+
+const loader = new Loader(factory, () => readFile(new URL('../dist/quadmark.wasm', import.meta.url)));
+
+export const {
+  embed, extract, inspect, externalUris, createKey, parseKey, decodeImage, encodeImage, version, load, unload, memoryBytes,
+} = createApi(loader);
