@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include <cstring>
+
+#include "number_text.h"
+
+namespace quadmark::io {
+namespace {
+
+/// An unsigned integer of up to kLimbs * 32 bits, just enough for free-format printing.
+template <int kLimbs>
+class Natural {
+ public:
+  explicit Natural(std::uint64_t value) {
+    limbs_[0] = static_cast<std::uint32_t>(value);
+    limbs_[1] = static_cast<std::uint32_t>(value >> 32);
+    size_ = limbs_[1] != 0 ? 2 : 1;
+  }
+
+  void multiply(std::uint32_t factor) {
+    std::uint64_t carry = 0;
+    for (int i = 0; i < size_; ++i) {
+      carry += std::uint64_t{limbs_[i]} * factor;
+      limbs_[i] = static_cast<std::uint32_t>(carry);
+      carry >>= 32;
+    }
+    if (carry != 0) limbs_[size_++] = static_cast<std::uint32_t>(carry);
+  }
+
+  void multiplyByPowerOfTen(int exponent) {
+    for (; exponent >= 9; exponent -= 9) multiply(1000000000);
+    for (; exponent > 0; --exponent) multiply(10);
+  }
+
+  void shiftLeft(int bits) {
+    for (; bits >= 31; bits -= 31) multiply(std::uint32_t{1} << 31);
+    if (bits > 0) multiply(std::uint32_t{1} << bits);
+  }
+
+  void add(const Natural& other) {
+    std::uint64_t carry = 0;
+    const int longest = size_ > other.size_ ? size_ : other.size_;
+    for (int i = 0; i < longest; ++i) {
+      carry += std::uint64_t{i < size_ ? limbs_[i] : 0} + (i < other.size_ ? other.limbs_[i] : 0);
+      limbs_[i] = static_cast<std::uint32_t>(carry);
+      carry >>= 32;
+    }
+    size_ = longest;
+    if (carry != 0) limbs_[size_++] = static_cast<std::uint32_t>(carry);
+  }
+
+  /// Requires *this >= other.
+  void subtract(const Natural& other) {
+    std::int64_t borrow = 0;
+    for (int i = 0; i < size_; ++i) {
+      borrow += std::int64_t{limbs_[i]} - (i < other.size_ ? std::int64_t{other.limbs_[i]} : 0);
+      limbs_[i] = static_cast<std::uint32_t>(borrow);
+      borrow >>= 32;
+    }
+    while (size_ > 1 && limbs_[size_ - 1] == 0) --size_;
+  }
+
+  [[nodiscard]] int compare(const Natural& other) const {
+    if (size_ != other.size_) return size_ < other.size_ ? -1 : 1;
+    for (int i = size_ - 1; i >= 0; --i) {
+      if (limbs_[i] != other.limbs_[i]) return limbs_[i] < other.limbs_[i] ? -1 : 1;
+    }
+    return 0;
+  }
+
+  /// this + other compared with limit.
+  [[nodiscard]] int compareSum(const Natural& other, const Natural& limit) const {
+    Natural sum = *this;
+    sum.add(other);
+    return sum.compare(limit);
+  }
+
+ private:
+  std::uint32_t limbs_[kLimbs];
+  int size_;
+};
+
+/// value = 0.d1 d2 ... dn * 10^exponent
+struct Digits {
+  char digits[20];
+  int count = 0;
+  int exponent = 0;
+};
+
+/// Digits of mantissa * 2^exponent, until they identify it among its neighbours of the same format.
+/// @param atPowerOfTwo  the neighbour below is half as far away as the one above.
+template <int kLimbs>
+Digits shortestDigits(std::uint64_t mantissa, int exponent, bool atPowerOfTwo) {
+  using Int = Natural<kLimbs>;
+  // Invariants: value = remainder / scale; the rounding interval reaches below / scale and above / scale from it.
+  Int remainder(mantissa), scale(1), below(1), above(1);
+  const int extraBit = atPowerOfTwo ? 2 : 1;
+  remainder.shiftLeft((exponent > 0 ? exponent : 0) + extraBit);
+  scale.shiftLeft((exponent < 0 ? -exponent : 0) + extraBit);
+  below.shiftLeft(exponent > 0 ? exponent : 0);
+  above.shiftLeft((exponent > 0 ? exponent : 0) + extraBit - 1);
+
+  // 1. Scale by the power of ten that brings the value into [0.1, 1): an estimate from the bit length, then a correction.
+  int bits = 0;
+  for (std::uint64_t rest = mantissa; rest != 0; rest >>= 1) ++bits;
+  const int log2Floor = exponent + bits - 1;
+  Digits result;
+  result.exponent = static_cast<int>((std::int64_t{log2Floor} * 78913) >> 18);  // floor(log10(2^log2Floor)), or one less
+  if (result.exponent > 0) {
+    scale.multiplyByPowerOfTen(result.exponent);
+  } else {
+    remainder.multiplyByPowerOfTen(-result.exponent);
+    below.multiplyByPowerOfTen(-result.exponent);
+    above.multiplyByPowerOfTen(-result.exponent);
+  }
+  const bool even = mantissa % 2 == 0;  // ties round to even, so the interval of an even mantissa contains its ends
+  const auto reachesAbove = [&](const Int& limit) {
+    const int order = remainder.compareSum(above, limit);
+    return even ? order >= 0 : order > 0;
+  };
+  while (reachesAbove(scale)) {
+    scale.multiply(10);
+    ++result.exponent;
+  }
+
+  // 2. Digits.
+  for (;;) {
+    remainder.multiply(10);
+    below.multiply(10);
+    above.multiply(10);
+    int digit = 0;
+    while (remainder.compare(scale) >= 0) {
+      remainder.subtract(scale);
+      ++digit;
+    }
+    const int belowOrder = remainder.compare(below);
+    const bool low = even ? belowOrder <= 0 : belowOrder < 0;
+    const bool high = reachesAbove(scale);
+    if (low || high) {
+      // Down, up, or if both would do, to the nearer one, in a tie to the even digit (as std::to_chars does).
+      const int half = remainder.compareSum(remainder, scale);
+      const bool up = high && (!low || half > 0 || (half == 0 && digit % 2 != 0));
+      result.digits[result.count++] = static_cast<char>('0' + digit + (up ? 1 : 0));
+      return result;
+    }
+    result.digits[result.count++] = static_cast<char>('0' + digit);
+  }
+}
+
+std::string layOut(bool negative, const Digits& number) {
+  std::string text = negative ? "-" : "";
+  const int point = number.exponent;  // digits before the decimal point
+  if (point > -5 && point <= 16) {
+    if (point <= 0) {
+      text += "0.";
+      text.append(static_cast<std::size_t>(-point), '0');
+      text.append(number.digits, static_cast<std::size_t>(number.count));
+      return text;
+    }
+    for (int i = 0; i < number.count || i < point; ++i) {
+      if (i == point) text += '.';
+      text += i < number.count ? number.digits[i] : '0';
+    }
+    return text;
+  }
+  text += number.digits[0];
+  if (number.count > 1) {
+    text += '.';
+    text.append(number.digits + 1, static_cast<std::size_t>(number.count - 1));
+  }
+  return text + 'e' + std::to_string(point - 1);
+}
+
+/// Splits an IEEE number of kMantissaBits stored mantissa bits. kLimbs holds 10^38 * 2^152 or 10^308 * 2^1076.
+template <int kLimbs, int kMantissaBits, int kBias>
+std::string format(std::uint64_t bits, bool negative) {
+  const std::uint64_t fraction = bits & ((std::uint64_t{1} << kMantissaBits) - 1);
+  const int biased = static_cast<int>(bits >> kMantissaBits);
+  if (biased == 0 && fraction == 0) return negative ? "-0" : "0";
+  const std::uint64_t mantissa = biased == 0 ? fraction : fraction | (std::uint64_t{1} << kMantissaBits);
+  const int exponent = (biased == 0 ? 1 : biased) - kBias - kMantissaBits;
+  return layOut(negative, shortestDigits<kLimbs>(mantissa, exponent, fraction == 0 && biased > 1));
+}
+
+}  // namespace
+
+std::string formatShortest(float value) {
+  std::uint32_t bits;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return format<10, 23, 127>(bits & 0x7fffffffu, (bits >> 31) != 0);
+}
+
+std::string formatShortest(double value) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return format<72, 52, 1023>(bits & 0x7fffffffffffffffu, (bits >> 63) != 0);
+}
+
+}  // namespace quadmark::io

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "quadmark/mesh.h"
+
+#include <cmath>
+#include <limits>
+
+namespace quadmark {
+namespace {
+
+Error badMesh(std::string message) { return Error{ErrorCode::badMesh, std::move(message)}; }
+
+Status validatePositions(const Mesh& mesh) {
+  if (mesh.positions.size() % 3 != 0) {
+    return badMesh("positions: " + std::to_string(mesh.positions.size()) + " numbers are not a multiple of 3");
+  }
+  if (mesh.vertexCount() > std::numeric_limits<std::uint32_t>::max()) {
+    return badMesh("positions: more vertices than 32-bit indices can name");
+  }
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (!std::isfinite(mesh.positions[i])) {
+      return badMesh("vertex " + std::to_string(i / 3) + ", component " + "xyz"[i % 3] + " is not finite");
+    }
+  }
+  return okStatus();
+}
+
+Status validateOffsets(const Mesh& mesh) {
+  if (mesh.faceOffsets.empty()) {
+    if (mesh.faceVertices.size() % 3 == 0) return okStatus();
+    return badMesh("faces: " + std::to_string(mesh.faceVertices.size()) + " corners are not a multiple of 3");
+  }
+  if (mesh.faceOffsets.front() != 0) return badMesh("face 0 does not begin at corner 0");
+  for (std::size_t face = 0; face + 1 < mesh.faceOffsets.size(); ++face) {
+    const std::uint64_t begin = mesh.faceOffsets[face];
+    const std::uint64_t end = mesh.faceOffsets[face + 1];
+    if (end < begin + 3) return badMesh("face " + std::to_string(face) + " has fewer than 3 corners");
+  }
+  if (mesh.faceOffsets.back() != mesh.faceVertices.size()) {
+    return badMesh("faces: the last offset is " + std::to_string(mesh.faceOffsets.back()) + ", there are " +
+                   std::to_string(mesh.faceVertices.size()) + " corners");
+  }
+  return okStatus();
+}
+
+}  // namespace
+
+Status validate(const Mesh& mesh) {
+  if (Status status = validatePositions(mesh); !status) return status;
+  if (Status status = validateOffsets(mesh); !status) return status;
+  const std::size_t vertexCount = mesh.vertexCount();
+  for (std::size_t corner = 0; corner < mesh.faceVertices.size(); ++corner) {
+    if (mesh.faceVertices[corner] >= vertexCount) {
+      return badMesh("corner " + std::to_string(corner) + ": vertex " + std::to_string(mesh.faceVertices[corner]) +
+                     " of " + std::to_string(vertexCount) + " vertices");
+    }
+  }
+  if (!mesh.groups.empty() && mesh.groups.size() != vertexCount) {
+    return badMesh("groups: " + std::to_string(mesh.groups.size()) + " entries for " + std::to_string(vertexCount) +
+                   " vertices");
+  }
+  return okStatus();
+}
+
+double boundingDiagonal(const Mesh& mesh) {
+  if (mesh.faceVertices.empty()) return 0;
+  double low[3], high[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = high[axis] = mesh.positions[3 * std::size_t{mesh.faceVertices[0]} + axis];
+  }
+  for (const std::uint32_t vertex : mesh.faceVertices) {
+    const double* position = &mesh.positions[3 * std::size_t{vertex}];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (position[axis] < low[axis]) low[axis] = position[axis];
+      if (position[axis] > high[axis]) high[axis] = position[axis];
+    }
+  }
+  double extent[3], largest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    extent[axis] = high[axis] - low[axis];
+    if (extent[axis] > largest) largest = extent[axis];
+  }
+  // Squares of very small or very large extents would leave the range of a double, so the largest side becomes the unit
+  // then. The usual range is left alone: a division would cost a rounding.
+  const bool squaresAreSafe = largest > 1e-120 && largest < 1e120;
+  if (largest == 0 || !std::isfinite(largest)) return largest;
+  const double unit = squaresAreSafe ? 1 : largest;
+  double sum = 0;
+  for (const double side : extent) sum += (side / unit) * (side / unit);
+  return unit * std::sqrt(sum);
+}
+
+void roundToPrecision(Mesh& mesh) {
+  if (mesh.precision != Precision::float32) return;
+  for (double& value : mesh.positions) {
+    const float rounded = static_cast<float>(value);
+    value = rounded;
+  }
+}
+
+}  // namespace quadmark
