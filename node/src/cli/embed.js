@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// quadmark embed: marks models and writes them, with the external files of a .gltf beside the output.
+import { existsSync } from 'node:fs';
+import { basename, dirname, join, resolve } from 'node:path';
+import { QuadmarkError } from '../error.js';
+import { embed } from '../index_node.js';
+import { EXIT, worstExit } from './exit.js';
+import { displayName, readInput, readModelFile, safeRelativePath } from './files.js';
+import { expandGlobs } from './glob.js';
+import { readKey } from './keys.js';
+import { millisSince } from './output.js';
+import { makeDirectory, Writer } from './write.js';
+
+/** [{ input, output }] from IN OUT, or from many inputs and --out-dir. */
+function planJobs(files, options, output) {
+  if (options.outDir !== undefined) {
+    const inputs = expandGlobs(files);
+    if (inputs.includes('-')) throw new QuadmarkError('bad_option', 'standard input has no name to use in --out-dir');
+    return inputs.map((input) => ({ input, output: join(options.outDir, basename(input)) }));
+  }
+  if (files.length !== 2) {
+    throw new QuadmarkError('bad_option', `expected IN OUT, got ${files.length} names; for many inputs give --out-dir`);
+  }
+  const [input, out] = files;
+  if (out === '-' && output.json) throw new QuadmarkError('bad_option', 'the model and --json both want standard output');
+  return [{ input, output: out }];
+}
+
+export async function embedCommand(files, options, output) {
+  let jobs, writer, request;
+  try {
+    jobs = planJobs(files, options, output);
+    if ((options.image === undefined) === (options.id === undefined)) {
+      throw new QuadmarkError('bad_option', 'give exactly one of --image and --id');
+    }
+    if ([options.key, options.image, ...jobs.map((job) => job.input)].filter((name) => name === '-').length > 1) {
+      throw new QuadmarkError('bad_option', 'standard input can be read only once');
+    }
+    const key = await readKey(options);
+    request = options.image === undefined
+      ? { key, id: options.id }
+      : { key, image: await readInput(options.image, 'cannot read the image') };
+    const names = [options.key, options.image, ...jobs.map((job) => job.input)].filter((name) => name !== undefined);
+    writer = new Writer(options.force, names);
+    if (options.outDir !== undefined) makeDirectory(options.outDir);
+  } catch (error) {
+    return output.failure(null, error);
+  }
+  const statuses = [];
+  for (const job of jobs) {
+    try {
+      await embedOne(job, request, writer, output);
+      statuses.push(EXIT.done);
+    } catch (error) {
+      statuses.push(output.failure(job.input, error));
+    }
+  }
+  return worstExit(statuses);
+}
+
+async function embedOne({ input, output: out }, request, writer, output) {
+  const start = performance.now();
+  // What cannot be written is said before the work, not after it.
+  const target = writer.check(out, input);
+  const model = await readModelFile(input);
+  for (const path of [...model.paths.values(), ...model.images.values()]) writer.protect(path);
+  const beside = await planBeside(model, out, writer);
+  const { bytes, resources, report } = await embed(model.bytes, {
+    ...request,
+    resources: model.resources,
+    options: { onProgress: output.onProgress },
+  });
+  const files = [];
+  for (const { uri, path, image } of beside.files) {
+    files.push({ path, bytes: resources[uri] ?? model.resources[uri] ?? (await readInput(image)) });
+  }
+  for (const { path } of files) makeDirectory(dirname(path));
+  writer.writeAll([...files, { path: target, bytes }]);
+  const warnings = [...(report.warnings ?? []), ...beside.warnings];
+  output.result(
+    { input, output: out, ...report, warnings, millis: millisSince(start) },
+    describe(input, out, report, beside.files),
+    out === '-' ? process.stderr : process.stdout);
+}
+
+/**
+ * Where the external files of a .gltf go: under their own relative names beside the output. Buffers must be written,
+ * images are copied when they are there, so that the output loads.
+ */
+async function planBeside(model, out, writer) {
+  const plan = { files: [], warnings: [] };
+  const uris = [...model.paths.keys()];
+  if (out === '-') {
+    if (uris.length > 0) {
+      throw new QuadmarkError('bad_option', `the glTF has the external buffer ${JSON.stringify(uris[0])}: write it to a file, not to standard output`);
+    }
+    return plan;
+  }
+  const claimed = new Set();
+  const place = (uri) => join(dirname(out), safeRelativePath(uri));
+  for (const uri of uris) {
+    const path = place(uri);
+    if (claimed.has(path)) continue;  // two spellings of one file
+    claimed.add(path);
+    plan.files.push({ uri, path: checkBeside(path, uri, model, writer) });
+  }
+  for (const [uri, image] of model.images) {
+    const path = place(uri);
+    if (claimed.has(path) || resolve(path) === resolve(image)) continue;
+    claimed.add(path);
+    if (!existsSync(image)) {
+      plan.warnings.push(`image ${JSON.stringify(uri)} is not there and was not copied`);
+      continue;
+    }
+    if (existsSync(path)) {
+      // Shared by several models of one run, or from an earlier one: images are never changed, so equal is done.
+      if (!(await readInput(path)).equals(await readInput(image))) {
+        plan.warnings.push(`image ${JSON.stringify(uri)} was not copied: another file has its name`);
+      }
+      continue;
+    }
+    plan.files.push({ uri, path, image });
+  }
+  return plan;
+}
+
+function checkBeside(path, uri, model, writer) {
+  if (resolve(path) === resolve(model.paths.get(uri))) {
+    throw new QuadmarkError('io', `the marked buffer ${JSON.stringify(uri)} would overwrite the input's: write to another directory`);
+  }
+  return writer.check(path, model.name, { makesDirectories: true });
+}
+
+function describe(input, out, report, beside) {
+  const { scheme, cells, capacityBits, payloadBits, repeats, distortion } = report;
+  const number = (value, digits) => (typeof value === 'number' ? value.toFixed(digits) : 'infinite');
+  const lines = [`${displayName(input)} -> ${displayOutput(out)}`];
+  lines.push(`  scheme ${scheme}: ${payloadBits} bits, each repeated ${describeRepeats(repeats)} times, in ${cells} cells (capacity ${capacityBits} bits)`);
+  if (distortion) {
+    lines.push(`  SNR ${number(distortion.snrDb, 1)} dB, largest displacement ${(distortion.maxRel * 100).toPrecision(2)} % of the diagonal`);
+  }
+  for (const { path } of beside) lines.push(`  with ${path}`);
+  return lines;
+}
+
+const displayOutput = (name) => (name === '-' ? 'standard output' : name);
+
+function describeRepeats(repeats) {
+  if (typeof repeats !== 'object' || repeats === null) return typeof repeats === 'number' ? repeats.toFixed(1) : '?';
+  return Object.entries(repeats).map(([name, value]) => `${name} ${typeof value === 'number' ? +value.toFixed(1) : value}`).join(', ');
+}

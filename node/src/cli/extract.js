@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// quadmark extract: reads the mark, says what it is worth, writes the pictures asked for.
+import { basename, extname, join } from 'node:path';
+import { QuadmarkError } from '../error.js';
+import { extract } from '../index_node.js';
+import { exitOfVerdict, worstExit } from './exit.js';
+import { displayName, readInput, readModelFile } from './files.js';
+import { expandGlobs } from './glob.js';
+import { readKey } from './keys.js';
+import { millisSince } from './output.js';
+import { makeDirectory, Writer } from './write.js';
+
+export async function extractCommand(files, options, output) {
+  let inputs, writer, request;
+  try {
+    inputs = expandGlobs(files);
+    if (inputs.length > 1 && (options.imageOut !== undefined || options.confidenceOut !== undefined)) {
+      throw new QuadmarkError('bad_option', '--image-out and --confidence-out take one input; for many give --out-dir');
+    }
+    if (output.json && [options.imageOut, options.confidenceOut].includes('-')) {
+      throw new QuadmarkError('bad_option', 'the picture and --json both want standard output');
+    }
+    if (options.imageOut === '-' && options.confidenceOut === '-') {
+      throw new QuadmarkError('bad_option', 'only one of --image-out and --confidence-out can go to standard output');
+    }
+    const names = [options.key, options.reference, ...inputs].filter((name) => name !== undefined);
+    if (names.filter((name) => name === '-').length > 1) {
+      throw new QuadmarkError('bad_option', 'standard input can be read only once');
+    }
+    const key = await readKey(options);
+    request = { key };
+    if (options.reference !== undefined) request.reference = await readInput(options.reference, 'cannot read the reference');
+    writer = new Writer(options.force, names);
+    if (options.outDir !== undefined) makeDirectory(options.outDir);
+  } catch (error) {
+    return output.failure(null, error);
+  }
+  const statuses = [];
+  for (const input of inputs) {
+    try {
+      statuses.push(await extractOne(input, options, request, writer, output));
+    } catch (error) {
+      statuses.push(output.failure(input, error));
+    }
+  }
+  return worstExit(statuses);
+}
+
+/** [{ path, of: "png" | "confidencePng" }] */
+function picturesOf(input, options, writer) {
+  const pictures = [];
+  const add = (path, of) => pictures.push({ path: writer.check(path, input), of });
+  if (options.imageOut !== undefined) add(options.imageOut, 'png');
+  if (options.confidenceOut !== undefined) add(options.confidenceOut, 'confidencePng');
+  if (options.outDir !== undefined) {
+    const stem = input === '-' ? 'stdin' : basename(input, extname(input));
+    add(join(options.outDir, `${stem}.mark.png`), 'png');
+    add(join(options.outDir, `${stem}.confidence.png`), 'confidencePng');
+  }
+  return pictures;
+}
+
+async function extractOne(input, options, request, writer, output) {
+  const start = performance.now();
+  const pictures = picturesOf(input, options, writer);
+  const { bytes, resources } = await readModelFile(input);
+  const result = await extract(bytes, { ...request, resources, options: { onProgress: output.onProgress } });
+  writer.writeAll(pictures.map(({ path, of }) => ({ path, bytes: result.image[of] })));
+  output.result(
+    { input, ...result.report, millis: millisSince(start) },
+    describe(input, result, pictures),
+    pictures.some(({ path }) => path === '-') ? process.stderr : process.stdout);
+  return exitOfVerdict(result.verdict);
+}
+
+const SENTENCES = {
+  match: 'the mark of this key is in the model',
+  none: 'no mark of this key',
+  inconclusive: 'traces that could be chance',
+};
+
+function describe(input, { verdict, falsePositive, image, id, report }, pictures) {
+  const erased = image.erased.reduce((sum, value) => sum + value, 0);
+  const lines = [
+    `${displayName(input)}: ${verdict} (${SENTENCES[verdict]})`,
+    `  probability of this without the mark: at most ${falsePositive.toPrecision(2)}`,
+  ];
+  if (id !== null) lines.push(`  ID ${id}`);
+  lines.push(`  ${image.width} x ${image.height} bits, ${erased} unread`);
+  if (typeof report.ber === 'number') lines.push(`  bit error rate against the reference: ${report.ber.toFixed(4)}`);
+  for (const { path } of pictures) if (path !== '-') lines.push(`  wrote ${path}`);
+  return lines;
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Globs, for shells that hand them over unexpanded: *, ? and **, matched against names, never following symbolic links
+// to directories.
+import { existsSync, readdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { QuadmarkError } from '../error.js';
+
+const isPattern = (text) => /[*?]/.test(text);
+
+function toRegExp(segment) {
+  const source = segment.replace(/[.+^${}()|[\]\\]/g, '\\$&').replace(/\*/g, '.*').replace(/\?/g, '.');
+  return new RegExp(`^${source}$`, 'u');
+}
+
+function list(directory) {
+  try {
+    return readdirSync(directory || '.', { withFileTypes: true }).sort((a, b) => (a.name < b.name ? -1 : 1));
+  } catch {
+    return [];  // not a directory, or not ours to read: nothing matches there
+  }
+}
+
+function* match(directory, [segment, ...rest]) {
+  if (segment === '**') {
+    yield* rest.length > 0 ? match(directory, rest) : [];
+    for (const entry of list(directory)) {
+      if (entry.isDirectory() && !entry.name.startsWith('.')) yield* match(join(directory, entry.name), ['**', ...rest]);
+    }
+    return;
+  }
+  if (!isPattern(segment)) {
+    const path = directory === '' ? segment || '/' : join(directory, segment);
+    if (rest.length > 0) yield* match(path, rest);
+    else if (existsSync(path)) yield path;
+    return;
+  }
+  const pattern = toRegExp(segment);
+  for (const entry of list(directory)) {
+    // As in shells, a wildcard does not match a leading dot.
+    if (!pattern.test(entry.name) || (entry.name.startsWith('.') && !segment.startsWith('.'))) continue;
+    const path = join(directory, entry.name);
+    if (rest.length > 0) yield* match(path, rest);
+    else if (!entry.isDirectory()) yield path;
+  }
+}
+
+/** Names as given, patterns replaced by what they match; fails with `io` when one matches nothing. */
+export function expandGlobs(names) {
+  return names.flatMap((name) => {
+    if (name === '-' || !isPattern(name) || existsSync(name)) return [name];
+    const found = [...new Set(match('', name.split('/')))];
+    if (found.length === 0) throw new QuadmarkError('io', `${name}: no file matches`);
+    return found;
+  });
+}

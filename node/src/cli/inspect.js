@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// quadmark inspect: facts about models, without a key.
+import { inspect } from '../index_node.js';
+import { EXIT, worstExit } from './exit.js';
+import { displayName, readModelFile } from './files.js';
+import { expandGlobs } from './glob.js';
+import { millisSince } from './output.js';
+
+export async function inspectCommand(files, options, output) {
+  let inputs;
+  try {
+    inputs = expandGlobs(files);
+  } catch (error) {
+    return output.failure(null, error);
+  }
+  const statuses = [];
+  for (const input of inputs) {
+    try {
+      const start = performance.now();
+      const { bytes, resources } = await readModelFile(input);
+      const report = await inspect(bytes, { resources });
+      output.result({ input, ...report, millis: millisSince(start) }, describe(input, report));
+      statuses.push(EXIT.done);
+    } catch (error) {
+      statuses.push(output.failure(input, error));
+    }
+  }
+  return worstExit(statuses);
+}
+
+/** Every plain value of the report, one per line; what it has is the core's to decide. */
+function describe(input, report) {
+  const lines = [`${displayName(input)}:`];
+  const walk = (object, indent) => {
+    for (const [name, value] of Object.entries(object)) {
+      if (name === 'warnings') continue;
+      if (Array.isArray(value)) {
+        const items = value.map((item) => (typeof item === 'object' ? JSON.stringify(item) : item));
+        if (items.length > 0) lines.push(`${indent}${name}: ${items.join(', ')}`);
+      } else if (typeof value === 'object' && value !== null) {
+        lines.push(`${indent}${name}:`);
+        walk(value, `${indent}  `);
+      } else {
+        lines.push(`${indent}${name}: ${value}`);
+      }
+    }
+  };
+  walk(report, '  ');
+  return lines;
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// quadmark keygen: a key file around fresh random bytes.
+import { QuadmarkError } from '../error.js';
+import { createKey, decodeImage } from '../index_node.js';
+import { EXIT } from './exit.js';
+import { readInput } from './files.js';
+import { checkSettings } from './keys.js';
+import { Writer } from './write.js';
+
+async function payloadOf({ image, size, idBits }) {
+  if ([image, size, idBits].filter((given) => given !== undefined).length !== 1) {
+    throw new QuadmarkError('bad_option', 'give exactly one of --image, --size and --id-bits');
+  }
+  if (image !== undefined) {
+    const { width, height } = await decodeImage(await readInput(image, 'cannot read the image'));
+    return { width, height };
+  }
+  if (size !== undefined) return size;
+  if (idBits !== 64) throw new QuadmarkError('bad_option', `--id-bits ${idBits}: only 64 is available`);
+  return { id: true };
+}
+
+export async function keygenCommand(path, options, output) {
+  try {
+    if (path === '-' && output.json) throw new QuadmarkError('bad_option', 'the key and --json both want standard output');
+    const payload = await payloadOf(options);
+    const writer = new Writer(options.force, options.image === undefined ? [] : [options.image]);
+    const target = writer.check(path, 'the key');
+    const request = { owner: options.owner, scheme: options.scheme, ...payload, ...checkSettings(options.set, ['L']) };
+    if (options.firstDigit !== undefined) request.L = options.firstDigit;
+    if (options.keyedCells) request.keyedCells = true;
+    const key = await createKey(request);
+    // Whoever reads the key can read and forge marks: for the owner of the file alone.
+    writer.writeAll([{ path: target, bytes: Buffer.from(`${JSON.stringify(key, null, 2)}\n`), mode: 0o600 }]);
+    const { scheme, owner, params } = key;
+    const what = payload.id ? 'a 64-bit ID' : `an image of ${params.width} x ${params.height} pixels`;
+    output.result(
+      { output: path, scheme, owner, params, warnings: [] },
+      [`${path}: key for ${what}, scheme ${scheme}, digits ${params.L1}-${params.H1} and ${params.L2}-${params.H2}`,
+        'Keep it secret and keep a copy: the mark can be neither read nor proved without it.'],
+      path === '-' ? process.stderr : process.stdout);
+    return EXIT.done;
+  } catch (error) {
+    return output.failure(null, error);
+  }
+}
