@@ -72,14 +72,15 @@ void keepNearest(std::vector<std::uint32_t>& members, std::uint32_t seed, const 
   for (std::size_t i = 0; i < limit; ++i) members.push_back(ranked[i].vertex);
 }
 
-std::vector<Quad> coplanarSets(const WeldedMesh& welded, const std::vector<double>& positions, int k,
-                               const Rounding& rounding, double maxUnits, double maxRelative,
-                               const std::vector<std::uint8_t>& skip) {
-  std::vector<Quad> out;
+void forEachCoplanarSet(const WeldedMesh& welded, const std::vector<double>& positions, int k, const Rounding& rounding,
+                        const GapLimit& limit, const std::vector<std::uint8_t>& skip,
+                        const std::function<void(const Quad&)>& visit, const std::vector<std::uint32_t>* seeds) {
   UniqueSets unique(welded.vertexCount());
   std::vector<std::uint32_t> members;
   RingSets ring;
-  for (std::uint32_t v = 0; v < welded.vertexCount(); ++v) {
+  const std::size_t count = seeds != nullptr ? seeds->size() : welded.vertexCount();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t v = seeds != nullptr ? (*seeds)[i] : static_cast<std::uint32_t>(i);
     if (!neighbourhood(welded, v, k, members)) continue;
     if (!skip.empty()) std::erase_if(members, [&](std::uint32_t w) { return skip[w] != 0; });
     if (members.size() < 4) continue;
@@ -92,22 +93,19 @@ std::vector<Quad> coplanarSets(const WeldedMesh& welded, const std::vector<doubl
     for (std::uint32_t w : members)
       for (int axis = 0; axis < 3; ++axis)
         magnitude = std::max(magnitude, std::fabs(positions[3 * std::size_t{w} + axis]));
-    const double longest = 2 * std::sqrt(radius2);
-    const double reach =
-        std::max(maxUnits * std::max(rounding.relative * magnitude, 1e-8 * longest), maxRelative * longest);
-    const double limit = 1.0001 * reach * 4 * radius2;
+    const double longest = 2 * std::sqrt(radius2), unit = std::max(rounding.relative * magnitude, 1e-8 * longest);
+    const double reach = std::min(limit.units * unit, std::max(kExactUnits * unit, limit.relative * longest));
+    const double largest = 1.0001 * reach * 4 * radius2;
     ring.forEach([&](int a, int b, int c, int d, double determinant) {
-      if (!(std::fabs(determinant) <= limit)) return;
+      if (!(std::fabs(determinant) <= largest)) return;
       std::uint32_t ids[4] = {members[a], members[b], members[c], members[d]};
       Quad quad;
       if (!makeQuad(ids, positions.data(), kMinTriangleReading, quad)) return;
-      if (quad.gap > std::max(maxUnits * rounding.unit(quad, positions.data()), maxRelative * quad.longerDiagonal()))
-        return;
+      if (!limit.admits(quad, rounding.unit(quad, positions.data()))) return;
       std::sort(ids, ids + 4);
-      if (unique.insert(ids)) out.push_back(quad);
+      if (unique.insert(ids)) visit(quad);
     });
   }
-  return out;
 }
 
 }  // namespace quadmark

@@ -13,40 +13,6 @@ std::uint32_t powerOfTen(int exponent) {
   return value;
 }
 
-// Candidates for one ratio: the digit cells with this code nearest to the present value, best first by distance.
-struct Choices {
-  double ratio[3];
-  std::uint32_t prefix[3];
-  int count = 0;
-};
-
-Choices nearestCells(const DigitSlot& slot, double from, std::uint32_t code) {
-  Choices out;
-  const auto natural = static_cast<std::int64_t>(slot.read(from).prefix);
-  for (std::int64_t prefix = natural - 1; prefix <= natural + 1; ++prefix) {
-    if (prefix < 0) continue;
-    const double ratio = slot.centre(static_cast<std::uint32_t>(prefix), code);
-    if (ratio < kMinRatio || ratio > slot.maxRatio()) continue;
-    out.ratio[out.count] = ratio;
-    out.prefix[out.count++] = static_cast<std::uint32_t>(prefix);
-  }
-  if (out.count == 0) {  // the pulled-in zone near 0.5, or code 0 below the least ratio: one step further
-    for (std::int64_t prefix = natural - 2; prefix <= natural + 2; prefix += 4) {
-      if (prefix < 0) continue;
-      const double ratio = slot.centre(static_cast<std::uint32_t>(prefix), code);
-      if (ratio < kMinRatio || ratio > slot.maxRatio()) continue;
-      out.ratio[out.count] = ratio;
-      out.prefix[out.count++] = static_cast<std::uint32_t>(prefix);
-    }
-  }
-  return out;
-}
-
-double moveCost(double from, double to, double weight) {
-  const double step = (from - to) / (1 - to);
-  return weight * step * step;
-}
-
 }  // namespace
 
 DigitSlot::DigitSlot(int L, int H)
@@ -92,22 +58,6 @@ Reading PairCodec::read(double ratioA, double ratioB) const {
     out.state = ReadingState::badDigit;
   }
   return out;
-}
-
-bool PairCodec::nearest(RatioPair from, std::uint32_t index, std::uint32_t octal, double weight1, double weight2,
-                        RatioPair& to, double& cost) const {
-  const Choices first = nearestCells(index_, from.r1, index), second = nearestCells(piece_, from.r2, octal);
-  bool found = false;
-  for (int i = 0; i < first.count; ++i)
-    for (int j = 0; j < second.count; ++j) {
-      if (!ordered(first.prefix[i], second.prefix[j])) continue;
-      const double c = moveCost(from.r1, first.ratio[i], weight1) + moveCost(from.r2, second.ratio[j], weight2);
-      if (found && c >= cost) continue;
-      found = true;
-      cost = c;
-      to = {first.ratio[i], second.ratio[j]};
-    }
-  return found;
 }
 
 std::uint32_t octalDigits(std::uint32_t bits, int digits) {

@@ -92,7 +92,7 @@ double boundingDiagonal(const Mesh& mesh) {
 void roundToPrecision(Mesh& mesh) {
   if (mesh.precision != Precision::float32) return;
   for (double& value : mesh.positions) {
-    const float rounded = static_cast<float>(value);
+    const double rounded = nearestFloat32(value);
     value = rounded;
   }
 }

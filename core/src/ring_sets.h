@@ -11,6 +11,9 @@
 
 namespace quadmark {
 
+constexpr int choose2(int n) { return n * (n - 1) / 2; }
+constexpr int choose3(int n) { return n * (n - 1) * (n - 2) / 6; }
+
 /// Coordinates of up to kMaxMembersReading points relative to the seed, and the determinants of their triples.
 /// With T(i,j,k) = p_i . (p_j x p_k), six times the volume of (i,j,k,l) is T(jkl) - T(ikl) + T(ijl) - T(ijk): the
 /// C(n,4) sets share C(n,3) products, which is what makes a full enumeration affordable (35 sets from 35 products at
@@ -76,8 +79,6 @@ class RingSets {
 
  private:
   static constexpr int kMax = static_cast<int>(std::max(kMaxMembersReading, kMaxMembersWriting));
-  static constexpr int choose2(int n) { return n * (n - 1) / 2; }
-  static constexpr int choose3(int n) { return n * (n - 1) * (n - 2) / 6; }
   static constexpr int pairIndex(int i, int j) { return choose2(j) + i; }
   static constexpr int tripleIndex(int i, int j, int k) { return choose3(k) + choose2(j) + i; }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "quadmark/adjacency.h"
@@ -42,14 +43,26 @@ struct SearchResult {
 [[nodiscard]] SearchResult searchCells(const Mesh& mesh, const WeldedMesh& welded, const PaperParams& params,
                                        double diagonal, const Rounding& rounding);
 
-/// Every convex four-point set of the neighbourhoods whose gap is at most `maxUnits` rounding units, or
-/// `maxRelative` * longer diagonal, whichever is larger. Each set once, in an order that depends on vertex numbers.
+/// How flat a set must be to be reported: gap <= max(kExactUnits or fewer rounding units, min(units, relative * longer
+/// diagonal)).
+struct GapLimit {
+  double units = kExactUnits;  ///< in rounding units
+  double relative = 0;         ///< beyond kExactUnits also at most this fraction of the longer diagonal
+  [[nodiscard]] bool admits(const Quad& quad, double unit) const {
+    return quad.gap <= units * unit && (quad.gap <= kExactUnits * unit || quad.gap <= relative * quad.longerDiagonal());
+  }
+};
+
+/// Calls visit for every convex four-point set of the neighbourhoods that the limit admits, each set once, in an order
+/// that depends on vertex numbers.
 /// @param welded     connectivity.
 /// @param positions  3 per welded vertex; need not be welded.positions.
 /// @param skip       empty, or one byte per vertex: sets with a marked vertex are left out.
+/// @param seeds      only these neighbourhoods; nullptr for all.
 /// Cost: linear for small gaps, about 0.2 microseconds per vertex.
-[[nodiscard]] std::vector<Quad> coplanarSets(const WeldedMesh& welded, const std::vector<double>& positions, int k,
-                                             const Rounding& rounding, double maxUnits, double maxRelative,
-                                             const std::vector<std::uint8_t>& skip = {});
+void forEachCoplanarSet(const WeldedMesh& welded, const std::vector<double>& positions, int k, const Rounding& rounding,
+                        const GapLimit& limit, const std::vector<std::uint8_t>& skip,
+                        const std::function<void(const Quad&)>& visit,
+                        const std::vector<std::uint32_t>* seeds = nullptr);
 
 }  // namespace quadmark

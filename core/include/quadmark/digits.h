@@ -49,11 +49,6 @@ class DigitSlot {
   double scale_, maxRatio_;
 };
 
-/// The two ratios of a cell: the smaller, r1, carries an index, the larger, r2, a piece.
-struct RatioPair {
-  double r1 = 0, r2 = 0;
-};
-
 /// Why a cell could not be read; anything but `ok` is a detected erasure, never a vote.
 enum class ReadingState : std::uint8_t { ok, ambiguousOrder, outOfRange, badIndex, badDigit };
 
@@ -84,17 +79,6 @@ class PairCodec {
   [[nodiscard]] bool ordered(std::uint32_t prefix1, std::uint32_t prefix2) const {
     return index_.coarsePrefix(prefix1, coarse_) < piece_.coarsePrefix(prefix2, coarse_);
   }
-
-  /// The cheapest legal pair that carries (index, piece) in a cell whose ratios are `from` (D10-D12).
-  /// Instead of always keeping the prefix, as the paper does, the nearest legal digit cell is taken: the decoder needs
-  /// no natural prefix, only an ordered pair, and this halves the energy of the change.
-  /// @param from      current ratios: `from.r1` of the diagonal that shall carry the index. Any order.
-  /// @param octal     the piece as decimal digits 0..7, from octalDigits().
-  /// @param weight1, weight2  cost of moving each ratio: squared length of its diagonal.
-  /// @param cost      receives sum of weight * ((r - r') / (1 - r'))^2, the squared displacement of Eq. (4).
-  /// @return false when no legal pair exists.
-  [[nodiscard]] bool nearest(RatioPair from, std::uint32_t index, std::uint32_t octal, double weight1, double weight2,
-                             RatioPair& to, double& cost) const;
 
  private:
   DigitSlot index_, piece_;

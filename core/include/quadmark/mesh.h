@@ -49,6 +49,13 @@ struct Mesh {
 /// Bounding-box diagonal of the vertices that faces refer to, in file units; 0 for none.
 [[nodiscard]] double boundingDiagonal(const Mesh& mesh);
 
+/// The float32 nearest to x, as a double. Always round through this: g++ 12 at -O2 vectorises the plain conversion
+/// double -> float -> double of three neighbouring coordinates and loses it for two of them (the volatile stops that).
+[[nodiscard]] inline double nearestFloat32(double x) {
+  const volatile float rounded = static_cast<float>(x);
+  return rounded;
+}
+
 /// Rounds every coordinate to the mesh's own precision (nearest float32; nothing for float64).
 void roundToPrecision(Mesh& mesh);
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Reading a mark from a mesh: passes of rising tolerance, votes per bit, verdict (section 4.3; D20-D22).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "quadmark/cells.h"
+#include "quadmark/digits.h"
+#include "quadmark/key.h"
+#include "quadmark/payload.h"
+
+namespace quadmark {
+
+enum class Verdict : std::uint8_t { match, none, inconclusive };
+
+/// "match", "none" or "inconclusive".
+[[nodiscard]] const char* verdictName(Verdict verdict);
+
+/// A false-positive probability at or below this is a match.
+inline constexpr double kMatchProbability = 1e-6;
+/// Above kMatchProbability and up to this, the verdict is inconclusive.
+inline constexpr double kDoubtProbability = 1e-4;
+
+/// One reading that the votes are made of.
+struct CellReading {
+  std::uint32_t vertices[4];  ///< welded vertices a, b, c, d
+  Reading reading;
+  float purity = 0;           ///< estimated share of true cells among readings of its kind, 0..1
+  float weight = 0;           ///< weight of its votes, 0 for erasures
+};
+
+struct Extraction {
+  Verdict verdict = Verdict::none;
+  double falsePositive = 1;            ///< upper bound, see verdict.h
+  double agreementProbability = 1;     ///< from the copies of each bit alone
+  double referenceProbability = 1;     ///< from the reference alone; 1 without one
+  std::vector<std::uint8_t> bits;      ///< payload bits, one per byte; 0 where erased
+  std::vector<std::uint8_t> erased;    ///< 1 = unread
+  std::vector<float> confidence;       ///< 0..1 per payload bit: |P(1) - P(0)|
+  std::vector<CellReading> readings;   ///< all considered cells, votes and erasures; empty unless asked for
+  std::uint32_t cells = 0;             ///< readings that voted
+  std::uint32_t exactCells = 0;        ///< of these, found in pass 1
+  std::uint32_t erasedCells = 0;       ///< readings rejected as erasures (D14)
+  std::uint32_t piecesRead = 0;        ///< pieces with at least one vote of weight
+  int passes = 1;
+};
+
+struct ExtractOptions {
+  std::span<const std::uint8_t> reference;  ///< expected payload bits, empty for none
+  bool keepReadings = false;
+};
+
+/// Reads a mesh.
+/// @param positions  3 per welded vertex; the welded mesh gives the connectivity only.
+/// Deterministic, and independent of the order of vertices and faces. Cost: linear, 0.3 microseconds per vertex when
+/// the mark is intact; the tolerant passes may take several times as long.
+[[nodiscard]] Extraction extractMesh(const WeldedMesh& welded, const std::vector<double>& positions,
+                                     const Rounding& rounding, const Key& key, const ExtractOptions& options = {});
+
+}  // namespace quadmark

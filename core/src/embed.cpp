@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "quadmark/embed.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "embedder.h"
+
+namespace quadmark {
+namespace {
+
+// Square of Eq. (4): how far the near end of a diagonal of this length moves.
+double displacement2(double from, double to, double length) {
+  const double step = (from - to) / (1 - to) * length;
+  return step * step;
+}
+
+}  // namespace
+
+Embedder::Embedder(const Mesh& mesh, std::span<const std::uint8_t> bits, const Key& key)
+    : mesh_(mesh), bits_(bits), key_(key), pad_(key), rounding_(roundingOf(mesh.precision)),
+      pieces_(toPieces(bits, key)), codec_(key.params, pieceCount(key.params)), welded_(weld(mesh)),
+      diagonal_(boundingDiagonal(mesh)), padded_(pad_, pieces_, codec_.pieceSlot().digitCount()) {}
+
+Status Embedder::search() {
+  if (!(diagonal_ > 0)) return Error{ErrorCode::badMesh, "the model has no extent: all its vertices coincide"};
+  SearchResult found = searchCells(mesh_, welded_, key_.params, diagonal_, rounding_);
+  positions_ = std::move(found.positions);
+  report_.naturalCells = found.naturalCells;
+  cells_.reserve(found.cells.size());
+  cellOf_.assign(welded_.vertexCount(), kNoVertex);
+  for (const Quad& quad : found.cells) {
+    for (std::uint32_t v : {quad.a, quad.b, quad.c, quad.d}) cellOf_[v] = static_cast<std::uint32_t>(cells_.size());
+    cells_.push_back({quad, kNoPiece, quad.ratioAC, quad.ratioBD});
+  }
+  return okStatus();
+}
+
+std::uint32_t PadCache::operator()(std::uint32_t index, std::uint32_t prefix1, std::uint32_t prefix2) {
+  const std::uint64_t label = std::uint64_t{prefix1} << 32 | prefix2;
+  Entry& entry = entries_[((label ^ label >> 29) * 0x9e3779b97f4a7c15u + index) >> 20 & (kEntries - 1)];
+  if (entry.label != label || entry.index != index)
+    entry = {label, index, octalDigits(pieces_[index] ^ pad_(index, prefix1, prefix2), digits_)};
+  return entry.octal;
+}
+
+// The pad, hence the code, depends on the label, that is on the two prefixes, so every label near the present ratios is
+// a candidate of its own (D11, D12). Instead of always keeping the prefix as the paper does, the cheapest legal one is
+// taken: the decoder needs an ordered pair of ratios, not the natural ones. Which diagonal carries the index is free
+// too: the decoder goes by size alone.
+bool Embedder::plan(PlannedCell& cell, std::uint32_t piece) {
+  const Quad& q = cell.quad;
+  const DigitSlot &slot1 = codec_.indexSlot(), &slot2 = codec_.pieceSlot();
+  double best = 0;
+  bool found = false;
+  for (const int reach : {1, 2}) {
+    if (found) break;
+    for (const bool acFirst : {true, false}) {
+      const double from1 = acFirst ? q.ratioAC : q.ratioBD, from2 = acFirst ? q.ratioBD : q.ratioAC;
+      const double weight1 = acFirst ? q.lengthAC : q.lengthBD, weight2 = acFirst ? q.lengthBD : q.lengthAC;
+      const auto natural1 = static_cast<int>(slot1.read(from1).prefix), natural2 = static_cast<int>(slot2.read(from2).prefix);
+      for (int p1 = std::max(0, natural1 - reach); p1 <= natural1 + reach; ++p1) {
+        const double r1 = slot1.centre(static_cast<std::uint32_t>(p1), piece);
+        if (r1 < kMinRatio || r1 > slot1.maxRatio()) continue;
+        const double cost1 = displacement2(from1, r1, weight1);
+        if (found && cost1 >= best) continue;
+        for (int p2 = std::max(0, natural2 - reach); p2 <= natural2 + reach; ++p2) {
+          const auto u1 = static_cast<std::uint32_t>(p1), u2 = static_cast<std::uint32_t>(p2);
+          if (!codec_.ordered(u1, u2) || !pad_.carries(u1, u2)) continue;
+          const double r2 = slot2.centre(u2, padded_(piece, u1, u2));
+          if (r2 < kMinRatio || r2 > slot2.maxRatio()) continue;
+          const double cost = cost1 + displacement2(from2, r2, weight2);
+          if (found && cost >= best) continue;
+          found = true;
+          best = cost;
+          cell.ratioAC = acFirst ? r1 : r2;
+          cell.ratioBD = acFirst ? r2 : r1;
+        }
+      }
+    }
+  }
+  cell.piece = found ? piece : kNoPiece;
+  return found;
+}
+
+void Embedder::round(std::uint32_t vertex) {
+  if (mesh_.precision != Precision::float32) return;
+  for (int k = 0; k < 3; ++k) {
+    double& x = positions_[3 * std::size_t{vertex} + k];
+    x = nearestFloat32(x);
+  }
+}
+
+// How far the cell, as it now stands, is from reading well: 0 = centre of both digit cells and flat, from 1 upwards it
+// is misread or taken for not coplanar.
+double Embedder::misfit(const PlannedCell& cell) const {
+  Quad quad;
+  const std::uint32_t ids[4] = {cell.quad.a, cell.quad.b, cell.quad.c, cell.quad.d};
+  if (!makeQuad(ids, positions_.data(), kMinTriangleReading, quad)) return 1e9;
+  // makeQuad names the near ends afresh; the diagonals are the same unless the points left convex position.
+  const bool same = quad.a == cell.quad.a || quad.a == cell.quad.c;
+  const double wantAC = same ? cell.ratioAC : cell.ratioBD, wantBD = same ? cell.ratioBD : cell.ratioAC;
+  const bool acFirst = cell.ratioAC <= cell.ratioBD;
+  const double digitAC = (acFirst == same ? codec_.indexSlot() : codec_.pieceSlot()).cellWidth();
+  const double digitBD = (acFirst == same ? codec_.pieceSlot() : codec_.indexSlot()).cellWidth();
+  const double off = std::max(std::fabs(quad.ratioAC - wantAC) / digitAC, std::fabs(quad.ratioBD - wantBD) / digitBD);
+  return std::max(2 * off, quad.gap / (4 * rounding_.unit(quad, positions_.data())));
+}
+
+void Embedder::writeCell(PlannedCell& cell) {
+  if (cell.piece == kNoPiece) return;
+  writeRatios(cell.quad, cell.ratioAC, cell.ratioBD, positions_.data());
+  settleCell(cell);
+}
+
+// D19: rounds the four points; where rounding hurts, goes downhill over neighbouring representable positions.
+void Embedder::settleCell(const PlannedCell& cell) {
+  const std::uint32_t ids[4] = {cell.quad.a, cell.quad.b, cell.quad.c, cell.quad.d};
+  for (std::uint32_t v : ids) round(v);
+  if (mesh_.precision != Precision::float32) return;
+  constexpr double kGood = 0.15;
+  double best = misfit(cell);
+  for (int sweep = 0; sweep < 4 && best > kGood; ++sweep) {
+    const double before = best;
+    for (std::uint32_t v : ids)
+      for (int k = 0; k < 3; ++k)
+        for (const float direction : {-3e38f, 3e38f}) {
+          double& x = positions_[3 * std::size_t{v} + k];
+          const double kept = x;
+          x = std::nextafter(static_cast<float>(kept), direction);
+          const double now = misfit(cell);
+          if (now < best)
+            best = now;
+          else
+            x = kept;
+        }
+    if (!(best < before)) break;
+  }
+}
+
+Result<MarkedMesh> Embedder::run(const MeshProgress& progress) {
+  const auto report = [&](const char* stage, double done) { return !progress || progress(stage, done); };
+  if (!report("search", 0.1)) return Error{ErrorCode::aborted, "cancelled while searching cells"};
+  if (Status s = search(); !s) return s.error();
+  if (!report("write", 0.4)) return Error{ErrorCode::aborted, "cancelled while writing"};
+  if (Status s = assign(); !s) return s.error();
+  for (PlannedCell& cell : cells_) writeCell(cell);
+  separate();
+  return result();
+}
+
+MarkedMesh Embedder::result() const {
+  MarkedMesh out = report_;
+  out.positions = mesh_.positions;
+  for (std::size_t v = 0; v < mesh_.vertexCount(); ++v) {
+    const std::uint32_t w = welded_.weldedOf[v];
+    if (w == kNoVertex) continue;
+    for (int k = 0; k < 3; ++k)
+      // Equal values keep the original's bits: -0 must not become +0.
+      if (out.positions[3 * v + k] != positions_[3 * std::size_t{w} + k])
+        out.positions[3 * v + k] = positions_[3 * std::size_t{w} + k];
+  }
+  out.payloadBits = static_cast<std::uint32_t>(bits_.size());
+  out.capacityBits = 3ull * codec_.pieceSlot().digitCount() * out.cells;
+  out.repeats = static_cast<double>(out.cells) / static_cast<double>(pieces_.size());
+  out.leastRepeats = *std::min_element(copies_.begin(), copies_.end());
+  return out;
+}
+
+Result<MarkedMesh> embedMesh(const Mesh& mesh, std::span<const std::uint8_t> bits, const Key& key,
+                             const MeshProgress& progress) {
+  if (bits.size() != key.params.bitCount())
+    return Error{ErrorCode::badOption, "the payload has " + std::to_string(bits.size()) + " bits, the key is for " +
+                                           std::to_string(key.params.bitCount())};
+  return Embedder(mesh, bits, key).run(progress);
+}
+
+}  // namespace quadmark

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Making the cells the only coplanar sets of their neighbourhoods (D20).
+//
+// On CAD models whole faces are flat: every set of four of their vertices is coplanar, and a decoder that finds them in
+// another order, or with other diagonals after an affine map, reads something else. Instead of hoping that it does not,
+// each unwanted coplanar set is broken: a free vertex is lifted, or a whole cell is tilted by a tiny affine map, which
+// keeps its own plane and ratios exactly while it leaves the planes of its neighbours.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "embedder.h"
+
+namespace quadmark {
+namespace {
+
+constexpr double kUnwantedUnits = 12;   // somewhat more than the decoder's kExactUnits
+constexpr double kTiltUnits = 200;      // tilt: far beyond the decoder's tolerance, still about 1e-5 of the model
+constexpr int kRounds = 6;
+
+double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// Uniform in [-1.5, -0.5] or [0.5, 1.5]: never small.
+double awayFromZero(std::uint64_t random) {
+  const double u = static_cast<double>(random >> 12) * 0x1p-52 + 0.5;
+  return (random & 1) != 0 ? u : -u;
+}
+
+struct Frame {
+  double o[3], u[3], w[3], n[3], radius;
+};
+
+// Plane of a quadrilateral: crossing point, unit axes, unit normal.
+Frame frameOf(const Quad& q, const double* positions) {
+  Frame f{};
+  const double *a = positions + 3 * std::size_t{q.a}, *b = positions + 3 * std::size_t{q.b},
+               *c = positions + 3 * std::size_t{q.c}, *d = positions + 3 * std::size_t{q.d};
+  double e[3], g[3];
+  for (int k = 0; k < 3; ++k) e[k] = c[k] - a[k], g[k] = d[k] - b[k], f.o[k] = 0.25 * (a[k] + b[k] + c[k] + d[k]);
+  f.n[0] = e[1] * g[2] - e[2] * g[1], f.n[1] = e[2] * g[0] - e[0] * g[2], f.n[2] = e[0] * g[1] - e[1] * g[0];
+  const double length = std::sqrt(dot(e, e)), normal = std::sqrt(dot(f.n, f.n));
+  for (int k = 0; k < 3; ++k) f.u[k] = e[k] / length, f.n[k] /= normal;
+  f.w[0] = f.n[1] * f.u[2] - f.n[2] * f.u[1], f.w[1] = f.n[2] * f.u[0] - f.n[0] * f.u[2],
+  f.w[2] = f.n[0] * f.u[1] - f.n[1] * f.u[0];
+  f.radius = 0.5 * q.longerDiagonal();
+  return f;
+}
+
+}  // namespace
+
+void Embedder::tilt(PlannedCell& cell, std::uint64_t salt) {
+  const Quad& q = cell.quad;
+  const Frame f = frameOf(q, positions_.data());
+  const double amplitude =
+      std::min(kTiltUnits * rounding_.unit(q, positions_.data()), 0.1 * key_.params.lambda * diagonal_);
+  const double alpha = amplitude * awayFromZero(pad_.decoy(3 * salt)), beta = amplitude * awayFromZero(pad_.decoy(3 * salt + 1)),
+               gamma = amplitude * awayFromZero(pad_.decoy(3 * salt + 2));
+  for (std::uint32_t v : {q.a, q.b, q.c, q.d}) {
+    double* p = &positions_[3 * std::size_t{v}];
+    const double r[3] = {p[0] - f.o[0], p[1] - f.o[1], p[2] - f.o[2]};
+    const double height = alpha * dot(r, f.u) / f.radius + beta * dot(r, f.w) / f.radius + gamma;
+    for (int k = 0; k < 3; ++k) p[k] += height * f.n[k];
+  }
+  settleCell(cell);
+}
+
+void Embedder::breakSet(const Quad& set, std::uint64_t salt, std::vector<std::uint8_t>& movedCell,
+                        std::vector<std::uint32_t>& changed) {
+  const std::array<std::uint32_t, 4> vertices = {set.a, set.b, set.c, set.d};
+  for (std::uint32_t v : vertices) {
+    if (cellOf_[v] != kNoVertex) continue;
+    const Frame f = frameOf(set, positions_.data());
+    const double height =
+        std::min(kTiltUnits * rounding_.unit(set, positions_.data()), 0.1 * key_.params.lambda * diagonal_) *
+        awayFromZero(pad_.decoy(3 * salt));
+    for (int k = 0; k < 3; ++k) positions_[3 * std::size_t{v} + k] += height * f.n[k];
+    round(v);
+    changed.push_back(v);
+    return;
+  }
+  // All four belong to cells: tilt one that has not moved in this round.
+  for (std::uint32_t v : vertices)
+    if (movedCell[cellOf_[v]] != 0) return;
+  const std::uint32_t cell = cellOf_[vertices[salt % 4]];
+  movedCell[cell] = 1;
+  tilt(cells_[cell], salt);
+  const Quad& q = cells_[cell].quad;
+  changed.insert(changed.end(), {q.a, q.b, q.c, q.d});
+}
+
+bool Embedder::isCell(const Quad& set) const {
+  const std::uint32_t cell = cellOf_[set.a];
+  return cell != kNoVertex && cellOf_[set.b] == cell && cellOf_[set.c] == cell && cellOf_[set.d] == cell;
+}
+
+void Embedder::separate() {
+  std::vector<std::uint32_t> seeds;
+  std::vector<std::uint8_t> movedCell(cells_.size());
+  std::uint64_t salt = 1;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Quad> unwanted;
+    forEachCoplanarSet(welded_, positions_, key_.params.k, rounding_, {kUnwantedUnits, 1.0}, {},
+                       [&](const Quad& set) {
+                         if (!isCell(set)) unwanted.push_back(set);
+                       },
+                       round == 0 ? nullptr : &seeds);
+    if (unwanted.empty()) return;
+    std::vector<std::uint32_t> changed;
+    std::fill(movedCell.begin(), movedCell.end(), std::uint8_t{0});
+    std::vector<std::uint8_t> lifted(welded_.vertexCount(), 0);
+    for (const Quad& set : unwanted) {
+      bool touched = false;
+      for (std::uint32_t v : {set.a, set.b, set.c, set.d}) touched = touched || lifted[v] != 0;
+      if (touched) continue;  // probably broken already; the next round looks again
+      const std::size_t before = changed.size();
+      breakSet(set, salt++, movedCell, changed);
+      for (std::size_t i = before; i < changed.size(); ++i) lifted[changed[i]] = 1;
+      if (changed.size() > before) ++report_.repairs;
+    }
+    // Look again only where something moved.
+    seeds = changed;
+    std::vector<std::uint32_t> around;
+    for (std::uint32_t v : changed)
+      if (neighbourhood(welded_, v, key_.params.k, around)) seeds.insert(seeds.end(), around.begin(), around.end());
+    std::sort(seeds.begin(), seeds.end());
+    seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
+  }
+}
+
+}  // namespace quadmark

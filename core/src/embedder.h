@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The state that the embedder's stages share: assign -> write -> separate -> verify.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "quadmark/cells.h"
+#include "quadmark/digits.h"
+#include "quadmark/embed.h"
+#include "quadmark/payload.h"
+
+namespace quadmark {
+
+inline constexpr std::uint32_t kNoPiece = 0xffffffffu;
+
+/// A cell with what it shall carry.
+struct PlannedCell {
+  Quad quad;                       ///< as searched: near ends a, b
+  std::uint32_t piece = kNoPiece;  ///< index, or kNoPiece for a decoy or unused cell
+  double ratioAC = 0, ratioBD = 0; ///< what to write
+};
+
+/// What a piece looks like in a cell with a given label: octal digits of piece XOR pad, remembered, since the
+/// assignment asks for the same few labels thousands of times.
+class PadCache {
+ public:
+  PadCache(const Pad& pad, const std::vector<std::uint32_t>& pieces, int digits)
+      : pad_(pad), pieces_(pieces), digits_(digits), entries_(kEntries) {}
+  std::uint32_t operator()(std::uint32_t index, std::uint32_t prefix1, std::uint32_t prefix2);
+
+ private:
+  static constexpr std::size_t kEntries = 1 << 14;
+  struct Entry {
+    std::uint64_t label = ~std::uint64_t{0};
+    std::uint32_t index = 0, octal = 0;
+  };
+  const Pad& pad_;
+  const std::vector<std::uint32_t>& pieces_;
+  int digits_;
+  std::vector<Entry> entries_;
+};
+
+class Embedder {
+ public:
+  Embedder(const Mesh& mesh, std::span<const std::uint8_t> bits, const Key& key);
+
+  Result<MarkedMesh> run(const MeshProgress& progress);
+
+ private:
+  // embed.cpp
+  Status search();
+  void round(std::uint32_t vertex);
+  void writeCell(PlannedCell& cell);
+  void settleCell(const PlannedCell& cell);
+  [[nodiscard]] double misfit(const PlannedCell& cell) const;
+  [[nodiscard]] bool plan(PlannedCell& cell, std::uint32_t piece);
+  [[nodiscard]] MarkedMesh result() const;
+
+  // embed_assign.cpp
+  Status assign();
+  void assignWindow(std::span<std::uint32_t> cells, std::uint32_t firstPiece);
+  [[nodiscard]] double coarseness(const Quad& quad) const;
+
+  // embed_separate.cpp
+  void separate();
+  void breakSet(const Quad& set, std::uint64_t salt, std::vector<std::uint8_t>& movedCell,
+                std::vector<std::uint32_t>& changed);
+  void tilt(PlannedCell& cell, std::uint64_t salt);
+  [[nodiscard]] bool isCell(const Quad& set) const;
+
+  // embed_verify.cpp
+  Status verify(const MeshProgress& progress);
+  [[nodiscard]] bool readsExactly(const WeldedMesh& welded, const std::vector<double>& positions) const;
+  std::uint32_t repair(const WeldedMesh& welded, const std::vector<double>& positions,
+                       const std::vector<std::uint32_t>& toOwn);
+
+  const Mesh& mesh_;
+  const std::span<const std::uint8_t> bits_;
+  const Key& key_;
+  const Pad pad_;
+  const Rounding rounding_;
+  const std::vector<std::uint32_t> pieces_;
+  const PairCodec codec_;
+  WeldedMesh welded_;
+  const double diagonal_;
+  PadCache padded_;
+  std::vector<double> positions_;         ///< 3 per welded vertex, representable once written
+  std::vector<PlannedCell> cells_;
+  std::vector<std::uint32_t> cellOf_;     ///< per welded vertex: cell index or kNoVertex
+  std::vector<std::uint32_t> copies_;     ///< per piece
+  MarkedMesh report_;
+};
+
+}  // namespace quadmark

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#include "quadmark/extract.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "purity.h"
+#include "quadmark/exact_math.h"
+#include "quadmark/verdict.h"
+
+namespace quadmark {
+namespace {
+
+constexpr double kLeastPurity = 0.02;      // kinds below this do not vote
+constexpr double kLeastConfidence = 0.1;   // bits below this are erasures
+constexpr double kPassFactor = 8;          // how fast the tolerance rises from pass to pass
+constexpr double kTrustedPurity = 0.5;     // vertices of such cells are "used" for later passes
+constexpr double kMaxRepeats = 4;          // identical readings (index, label, piece) count at most this often
+
+struct Candidate {
+  Quad quad;
+  Reading reading;
+  int kind;
+  double purity;
+};
+
+class Extractor {
+ public:
+  Extractor(const WeldedMesh& welded, const std::vector<double>& positions, const Rounding& rounding, const Key& key,
+            const ExtractOptions& options)
+      : welded_(welded), positions_(positions), rounding_(rounding), key_(key), options_(options), pad_(key),
+        codec_(key.params, pieceCount(key.params)), target_(scrambling(key)) {}
+
+  Extraction run() {
+    pass(kExactUnits, 0);
+    out_.exactCells = voters();
+    settle();
+    // Pass 2 of the paper, in steps: only when something is missing, and only while it still finds more than chance.
+    // "All pieces were seen" would be no reason to stop: garbage covers everything (D21).
+    double units = kExactUnits;
+    int fruitless = 0;
+    while (key_.params.tau > 0 && !complete() && fruitless < 2) {
+      const double previous = units;
+      units *= kPassFactor;
+      const std::uint32_t before = voters();
+      const bool more = pass(units, previous);
+      ++out_.passes;
+      fruitless = voters() > before ? 0 : fruitless + 1;
+      settle();
+      if (!more) break;
+    }
+    judge();
+    return std::move(out_);
+  }
+
+ private:
+  // Reads all sets whose gap lies in (previous, units] rounding units. False when tau ends the series.
+  bool pass(double units, double previous) {
+    const double cap = previous == 0 ? 0 : key_.params.tau;
+    std::vector<Candidate> candidates;
+    PurityTable table(codec_);
+    bool reachedAny = previous == 0;
+    forEachCoplanarSet(welded_, positions_, key_.params.k, rounding_, {units, cap}, used_, [&](const Quad& quad) {
+      const double gapUnits = quad.gap / rounding_.unit(quad, positions_.data());
+      if (gapUnits <= previous) return;
+      if (gapUnits > units / 2) reachedAny = true;
+      Candidate c{quad, codec_.read(quad.ratioAC, quad.ratioBD), 0, 0};
+      if (c.reading.state == ReadingState::outOfRange || c.reading.state == ReadingState::ambiguousOrder) return;
+      if (!pad_.carries(c.reading.prefix1, c.reading.prefix2)) return;
+      c.kind = PurityTable::kind(gapUnits, c.reading);
+      table.add(c.kind, c.reading, quad.ratioAC, quad.ratioBD);
+      candidates.push_back(c);
+    });
+    table.estimate();
+    if (previous == 0) excess_ = table.excess();
+    for (Candidate& c : candidates) c.purity = table.purity(c.kind);
+    accept(candidates);
+    return reachedAny;
+  }
+
+  // A vertex belongs to one cell. Where sets compete the purer kind wins, then the longer diagonals (the paper's rule).
+  void accept(std::vector<Candidate>& candidates) {
+    std::vector<std::uint8_t> claims(welded_.vertexCount(), 0);
+    const auto vertices = [](const Quad& q) { return std::array<std::uint32_t, 4>{q.a, q.b, q.c, q.d}; };
+    const auto votes = [](const Candidate& c) {
+      return c.reading.state == ReadingState::ok && c.purity >= kLeastPurity;
+    };
+    for (const Candidate& c : candidates)
+      if (votes(c))
+        for (std::uint32_t v : vertices(c.quad)) claims[v] = static_cast<std::uint8_t>(std::min(claims[v] + 1, 2));
+    std::vector<const Candidate*> contested;
+    for (const Candidate& c : candidates) {
+      if (!votes(c)) {
+        erasure(c);
+        continue;
+      }
+      bool alone = true;
+      for (std::uint32_t v : vertices(c.quad)) alone = alone && claims[v] == 1;
+      if (alone)
+        take(c);
+      else
+        contested.push_back(&c);
+    }
+    std::sort(contested.begin(), contested.end(), [&](const Candidate* x, const Candidate* y) {
+      if (x->purity != y->purity) return x->purity > y->purity;
+      if (x->quad.diagonalSum() != y->quad.diagonalSum()) return x->quad.diagonalSum() > y->quad.diagonalSum();
+      const auto p = vertices(x->quad), q = vertices(y->quad);
+      for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 3; ++k) {
+          const double a = positions_[3 * std::size_t{p[i]} + k], b = positions_[3 * std::size_t{q[i]} + k];
+          if (a != b) return a < b;
+        }
+      return p < q;
+    });
+    std::fill(claims.begin(), claims.end(), std::uint8_t{0});
+    for (const Candidate* c : contested) {
+      bool free = true;
+      for (std::uint32_t v : vertices(c->quad)) free = free && claims[v] == 0;
+      if (!free) continue;
+      for (std::uint32_t v : vertices(c->quad)) claims[v] = 1;
+      take(*c);
+    }
+  }
+
+  void take(const Candidate& c) {
+    const Reading& r = c.reading;
+    // Near the edge of its digit cell a reading may belong to the neighbour.
+    const double off = std::max(std::fabs(r.residue1), std::fabs(r.residue2));
+    const double central = off <= 0.25 ? 1 : std::max(0.05, (0.5 - off) / 0.25);
+    const double weight = exactLog((1 + c.purity) / (1 - c.purity)) * central;
+    accepted_.push_back({label(r), r.index, r.piece ^ pad_(r.index, r.prefix1, r.prefix2), static_cast<float>(c.purity),
+                         static_cast<float>(weight)});
+    if (c.purity >= kTrustedPurity) {
+      if (used_.empty()) used_.assign(welded_.vertexCount(), 0);
+      for (std::uint32_t v : {c.quad.a, c.quad.b, c.quad.c, c.quad.d}) used_[v] = 1;
+    }
+    keep(c, static_cast<float>(weight));
+  }
+
+  void erasure(const Candidate& c) {
+    if (c.reading.state != ReadingState::ok) ++out_.erasedCells;
+    keep(c, 0);
+  }
+
+  void keep(const Candidate& c, float weight) {
+    if (!options_.keepReadings) return;
+    out_.readings.push_back({{c.quad.a, c.quad.b, c.quad.c, c.quad.d}, c.reading, static_cast<float>(c.purity), weight});
+  }
+
+  // Index and label in one word: both digit strings are below 10^9, so r1's digits and r2's prefix fit.
+  [[nodiscard]] std::uint64_t label(const Reading& r) const {
+    return (std::uint64_t{r.prefix1} * codec_.indexSlot().codeCount() + r.index) << 32 | r.prefix2;
+  }
+
+  [[nodiscard]] std::uint32_t voters() const { return static_cast<std::uint32_t>(accepted_.size()); }
+
+  [[nodiscard]] bool complete() const {
+    return excess_ > 0 && std::none_of(out_.erased.begin(), out_.erased.end(), [](std::uint8_t e) { return e != 0; });
+  }
+
+  // Sums the votes of everything accepted so far: bits, erasures, confidence (D22).
+  void settle() {
+    std::sort(accepted_.begin(), accepted_.end(), [](const Vote& x, const Vote& y) {
+      if (x.label != y.label) return x.label < y.label;
+      if (x.piece != y.piece) return x.piece < y.piece;
+      return x.weight > y.weight;
+    });
+    const std::uint32_t width = static_cast<std::uint32_t>(codec_.bitsPerPiece());
+    sums_.assign(std::size_t{codec_.pieces()} * width, 0);
+    for (std::size_t begin = 0; begin < accepted_.size();) {
+      double total = 0;
+      std::size_t end = begin;
+      for (; end < accepted_.size() && accepted_[end].label == accepted_[begin].label &&
+             accepted_[end].piece == accepted_[begin].piece;
+           ++end)
+        if (static_cast<double>(end - begin) < kMaxRepeats) total += accepted_[end].weight;
+      const Vote& v = accepted_[begin];
+      for (std::uint32_t bit = 0; bit < width; ++bit)
+        sums_[std::size_t{v.index} * width + bit] += (v.piece >> (width - 1 - bit) & 1) != 0 ? total : -total;
+      begin = end;
+    }
+    const std::uint32_t count = key_.params.bitCount();
+    out_.bits.assign(count, 0);
+    out_.erased.assign(count, 0);
+    out_.confidence.assign(count, 0);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const double sum = sums_[target_[i]];
+      // |P(1) - P(0)| of log odds `sum`: tanh(sum / 2).
+      const double odds = exactExp(-std::fabs(sum)), confidence = (1 - odds) / (1 + odds);
+      out_.confidence[i] = static_cast<float>(confidence);
+      out_.erased[i] = confidence < kLeastConfidence;
+      out_.bits[i] = sum > 0 && confidence >= kLeastConfidence;
+    }
+  }
+
+  void judge() {
+    const std::uint32_t width = static_cast<std::uint32_t>(codec_.bitsPerPiece());
+    AgreementTest test(codec_.pieces() * width);
+    // One bounded vote per bit and label: cells with one label share their pad, so they are one coin, not many.
+    std::vector<double> unit(width);
+    std::vector<std::uint8_t> seen(codec_.pieces(), 0);
+    for (std::size_t begin = 0, end = 0; begin < accepted_.size(); begin = end) {
+      std::fill(unit.begin(), unit.end(), 0.0);
+      double purity = 0;
+      for (end = begin; end < accepted_.size() && accepted_[end].label == accepted_[begin].label; ++end) {
+        const Vote& v = accepted_[end];
+        purity = std::max(purity, double{v.purity});
+        for (std::uint32_t bit = 0; bit < width; ++bit)
+          unit[bit] += (v.piece >> (width - 1 - bit) & 1) != 0 ? double{v.weight} : -double{v.weight};
+      }
+      const std::uint32_t index = accepted_[begin].index;
+      seen[index] = 1;
+      for (std::uint32_t bit = 0; bit < width; ++bit)
+        test.add(index * width + bit, unit[bit] > 0 ? 1 : unit[bit] < 0 ? -1 : 0, purity);
+    }
+    for (std::uint8_t s : seen) out_.piecesRead += s;
+    out_.cells = voters();
+    out_.agreementProbability = test.probability();
+    out_.falsePositive = out_.agreementProbability;
+    if (!options_.reference.empty()) {
+      std::uint64_t read = 0, equal = 0;
+      for (std::size_t i = 0; i < out_.bits.size(); ++i)
+        if (!out_.erased[i]) ++read, equal += out_.bits[i] == options_.reference[i];
+      out_.referenceProbability = referenceProbability(read, equal);
+      // Two tests were tried, so the better one counts double.
+      out_.falsePositive = std::min(1.0, 2 * std::min(out_.agreementProbability, out_.referenceProbability));
+    }
+    if (out_.falsePositive <= kMatchProbability) {
+      out_.verdict = Verdict::match;
+    } else if (out_.falsePositive <= kDoubtProbability) {
+      out_.verdict = Verdict::inconclusive;
+    } else {
+      // Cells of some mark are there, but too few repeats to say whose: not enough to deny it either.
+      const bool couldHaveShown = test.bestProbability() <= kMatchProbability;
+      out_.verdict = !couldHaveShown && excess_ > 4 ? Verdict::inconclusive : Verdict::none;
+    }
+  }
+
+  struct Vote {
+    std::uint64_t label;
+    std::uint32_t index, piece;
+    float purity, weight;
+  };
+
+  const WeldedMesh& welded_;
+  const std::vector<double>& positions_;
+  const Rounding rounding_;
+  const Key& key_;
+  const ExtractOptions& options_;
+  const Pad pad_;
+  const PairCodec codec_;
+  const std::vector<std::uint32_t> target_;  ///< scrambled position per payload bit
+  std::vector<Vote> accepted_;
+  std::vector<double> sums_;                 ///< log odds per scrambled bit
+  std::vector<std::uint8_t> used_;
+  double excess_ = 0;
+  Extraction out_;
+};
+
+}  // namespace
+
+const char* verdictName(Verdict verdict) {
+  return verdict == Verdict::match ? "match" : verdict == Verdict::none ? "none" : "inconclusive";
+}
+
+Extraction extractMesh(const WeldedMesh& welded, const std::vector<double>& positions, const Rounding& rounding,
+                       const Key& key, const ExtractOptions& options) {
+  return Extractor(welded, positions, rounding, key, options).run();
+}
+
+}  // namespace quadmark

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// How much a reading is worth: the share of true cells among readings of its kind, estimated from the file itself.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "quadmark/digits.h"
+
+namespace quadmark {
+
+/// Readings fall into kinds by how flat they are (gap in powers of two of the rounding unit) and how central in their
+/// digit cells. A true cell always has a valid index and octal digits; a chance set has them with the known
+/// probability q = (pieces / 10^D1) * 0.8^D2. From the share v of valid readings of a kind follows its purity,
+/// (v - q) / (1 - q). Nothing is assumed about the attack: after quantization the mass moves to flatter or less
+/// central kinds, and their validity says so.
+///
+/// Tried: weights from a Gaussian model of the gap (needs the attack's noise level, and is badly wrong on CAD models,
+/// whose natural sets are exactly flat); weights by pass only (the chance sets of the bunny, a third of pass 1, then
+/// vote with full weight).
+class PurityTable {
+ public:
+  static constexpr int kFlatness = 24, kCentrality = 5;
+
+  explicit PurityTable(const PairCodec& codec);
+
+  /// Kind of a reading: `units` = gap in rounding units.
+  [[nodiscard]] static int kind(double units, const Reading& reading);
+
+  /// Counts a reading. Repeats of the same reading in the same kind count once: a model with repeated structures would
+  /// otherwise speak with one voice a thousand times.
+  void add(int kind, const Reading& reading, double ratio1, double ratio2);
+
+  /// To be called after the last add().
+  void estimate();
+
+  /// 0 .. 0.998.
+  [[nodiscard]] double purity(int kind) const { return purity_[kind]; }
+
+  /// Standard deviations by which the share of valid readings exceeds chance: evidence of some mark with these
+  /// parameters, of whatever key.
+  [[nodiscard]] double excess() const { return excess_; }
+
+ private:
+  bool firstTime(std::uint64_t fingerprint);
+
+  double chance_;
+  std::array<std::uint32_t, kFlatness * kCentrality> valid_{}, total_{};
+  std::array<double, kFlatness * kCentrality> purity_{};
+  double excess_ = 0;
+  std::vector<std::uint64_t> seen_;  ///< open addressing, 0 = free
+  std::size_t seenCount_ = 0;
+};
+
+}  // namespace quadmark
