@@ -35,11 +35,18 @@ class UniqueSets {
 
 }  // namespace
 
-double Rounding::unit(const Quad& quad, const double* positions) const {
+double Rounding::unit(const double* const points[4], double longerDiagonal) const {
   double magnitude = 0;
-  for (std::uint32_t w : {quad.a, quad.b, quad.c, quad.d})
-    for (int k = 0; k < 3; ++k) magnitude = std::max(magnitude, std::fabs(positions[3 * std::size_t{w} + k]));
-  return std::max(relative * magnitude, 1e-8 * quad.longerDiagonal());
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 3; ++k) magnitude = std::max(magnitude, std::fabs(points[i][k]));
+  return std::max(relative * magnitude, 1e-8 * longerDiagonal);
+}
+
+double Rounding::unit(const Quad& quad, const double* positions) const {
+  const std::uint32_t ids[4] = {quad.a, quad.b, quad.c, quad.d};
+  const double* points[4];
+  for (int i = 0; i < 4; ++i) points[i] = positions + 3 * std::size_t{ids[i]};
+  return unit(points, quad.longerDiagonal());
 }
 
 Rounding roundingOf(Precision precision) {

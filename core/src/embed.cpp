@@ -53,7 +53,7 @@ bool Embedder::plan(PlannedCell& cell, std::uint32_t piece) {
   const DigitSlot &slot1 = codec_.indexSlot(), &slot2 = codec_.pieceSlot();
   double best = 0;
   bool found = false;
-  for (const int reach : {1, 2}) {
+  for (const int reach : {1, 4, 16}) {
     if (found) break;
     for (const bool acFirst : {true, false}) {
       const double from1 = acFirst ? q.ratioAC : q.ratioBD, from2 = acFirst ? q.ratioBD : q.ratioAC;
@@ -91,20 +91,40 @@ void Embedder::round(std::uint32_t vertex) {
   }
 }
 
-// How far the cell, as it now stands, is from reading well: 0 = centre of both digit cells and flat, from 1 upwards it
-// is misread or taken for not coplanar.
-double Embedder::misfit(const PlannedCell& cell) const {
+// How far the cell at these four points is from reading well: 0 = centre of both digit cells and flat, from 1 upwards
+// it is misread or taken for not coplanar.
+double Embedder::misfit(const PlannedCell& cell, const double* const points[4]) const {
   Quad quad;
-  const std::uint32_t ids[4] = {cell.quad.a, cell.quad.b, cell.quad.c, cell.quad.d};
-  if (!makeQuad(ids, positions_.data(), kMinTriangleReading, quad)) return 1e9;
+  if (!makeQuad(points, kMinTriangleReading, quad)) return 1e9;
   // makeQuad names the near ends afresh; the diagonals are the same unless the points left convex position.
-  const bool same = quad.a == cell.quad.a || quad.a == cell.quad.c;
+  const bool same = quad.a == 0 || quad.a == 2;
   const double wantAC = same ? cell.ratioAC : cell.ratioBD, wantBD = same ? cell.ratioBD : cell.ratioAC;
   const bool acFirst = cell.ratioAC <= cell.ratioBD;
   const double digitAC = (acFirst == same ? codec_.indexSlot() : codec_.pieceSlot()).cellWidth();
   const double digitBD = (acFirst == same ? codec_.pieceSlot() : codec_.indexSlot()).cellWidth();
   const double off = std::max(std::fabs(quad.ratioAC - wantAC) / digitAC, std::fabs(quad.ratioBD - wantBD) / digitBD);
-  return std::max(2 * off, quad.gap / (4 * rounding_.unit(quad, positions_.data())));
+  return std::max(2 * off, quad.gap / (4 * rounding_.unit(points, quad.longerDiagonal())));
+}
+
+double Embedder::misfit(const PlannedCell& cell) const {
+  const std::uint32_t ids[4] = {cell.quad.a, cell.quad.b, cell.quad.c, cell.quad.d};
+  const double* points[4];
+  for (int i = 0; i < 4; ++i) points[i] = &positions_[3 * std::size_t{ids[i]}];
+  return misfit(cell, points);
+}
+
+// The same after each of the affine maps that the verification also looks at, rounded to the file's precision.
+double Embedder::misfitAfterMaps(const PlannedCell& cell) const {
+  const std::uint32_t ids[4] = {cell.quad.a, cell.quad.b, cell.quad.c, cell.quad.d};
+  double worst = misfit(cell);
+  for (const AffineMap& map : verificationMaps()) {
+    double mapped[4][3];
+    const double* points[4] = {mapped[0], mapped[1], mapped[2], mapped[3]};
+    for (int i = 0; i < 4; ++i) applyRounded(map, &positions_[3 * std::size_t{ids[i]}], mapped[i]);
+    worst = std::max(worst, misfit(cell, points));
+    if (worst > 1e8) break;
+  }
+  return worst;
 }
 
 void Embedder::writeCell(PlannedCell& cell) {
@@ -113,28 +133,51 @@ void Embedder::writeCell(PlannedCell& cell) {
   settleCell(cell);
 }
 
-// D19: rounds the four points; where rounding hurts, goes downhill over neighbouring representable positions.
+// D19: rounds the four points; where rounding hurts, goes downhill over neighbouring representable positions. A coarse
+// cell of a piece with few copies has to be read after the verification's affine maps as well, each of which rounds
+// anew: no amount of voting helps a piece that has one copy.
 void Embedder::settleCell(const PlannedCell& cell) {
   const std::uint32_t ids[4] = {cell.quad.a, cell.quad.b, cell.quad.c, cell.quad.d};
   for (std::uint32_t v : ids) round(v);
   if (mesh_.precision != Precision::float32) return;
-  constexpr double kGood = 0.15;
-  double best = misfit(cell);
-  for (int sweep = 0; sweep < 4 && best > kGood; ++sweep) {
-    const double before = best;
-    for (std::uint32_t v : ids)
-      for (int k = 0; k < 3; ++k)
-        for (const float direction : {-3e38f, 3e38f}) {
-          double& x = positions_[3 * std::size_t{v} + k];
-          const double kept = x;
-          x = std::nextafter(static_cast<float>(kept), direction);
-          const double now = misfit(cell);
-          if (now < best)
-            best = now;
-          else
-            x = kept;
-        }
-    if (!(best < before)) break;
+  const bool throughMaps = scarce_ && coarseness(cell.quad) > kFineCoarseness;
+  const double good = throughMaps ? 0.5 : 0.15;
+  const auto score = [&] { return throughMaps ? misfitAfterMaps(cell) : misfit(cell); };
+  const auto descend = [&](double best) {
+    for (int sweep = 0; sweep < 6 && best > good; ++sweep) {
+      const double before = best;
+      for (int move = 0; move < 48 && best > good; ++move) {
+        double& x = positions_[3 * std::size_t{ids[move / 12]} + move / 4 % 3];
+        const double kept = x;
+        const float direction = move % 2 == 0 ? -3e38f : 3e38f;
+        for (int step = 0; step <= move / 2 % 2; ++step) x = std::nextafter(static_cast<float>(x), direction);
+        const double now = score();
+        if (now < best)
+          best = now;
+        else
+          x = kept;
+      }
+      if (!(best < before)) break;
+    }
+    return best;
+  };
+  double best = descend(score());
+  // Downhill ends in one of many hollows; a few jumps of some units in the last place find a better one.
+  for (int jump = 1; throughMaps && best > 0.8 && jump <= 24; ++jump) {
+    double kept[12];
+    for (int i = 0; i < 12; ++i) {
+      double& x = positions_[3 * std::size_t{ids[i / 3]} + i % 3];
+      kept[i] = x;
+      const auto steps = static_cast<int>(pad_.decoy((std::uint64_t{ids[0]} << 32) + 64 * jump + i) % 9) - 4;
+      for (int step = 0; step < std::abs(steps); ++step)
+        x = std::nextafter(static_cast<float>(x), steps < 0 ? -3e38f : 3e38f);
+    }
+    const double now = descend(score());
+    if (now < best) {
+      best = now;
+    } else {
+      for (int i = 0; i < 12; ++i) positions_[3 * std::size_t{ids[i / 3]} + i % 3] = kept[i];
+    }
   }
 }
 
@@ -146,6 +189,7 @@ Result<MarkedMesh> Embedder::run(const MeshProgress& progress) {
   if (Status s = assign(); !s) return s.error();
   for (PlannedCell& cell : cells_) writeCell(cell);
   separate();
+  if (Status s = verify(progress); !s) return s.error();
   return result();
 }
 

@@ -16,7 +16,7 @@ namespace quadmark {
 namespace {
 
 constexpr std::size_t kWindow = 64;
-constexpr double kMaxCoarseness = 4, kFine = 0.1;
+constexpr std::size_t kScarceRepeats = 8;
 
 std::uint64_t spread(std::uint64_t x) {  // two zero bits between the lower 21 bits
   x &= 0x1fffff;
@@ -29,8 +29,6 @@ std::uint64_t spread(std::uint64_t x) {  // two zero bits between the lower 21 b
 
 }  // namespace
 
-// What one rounding of one coordinate may move a ratio by, in digits. Above kMaxCoarseness even an unattacked file
-// could not hold the digit; above kFine the cell may be lost to the rounding that follows an affine map.
 double Embedder::coarseness(const Quad& quad) const {
   const double unit = rounding_.unit(quad, positions_.data());
   const double digit = std::min(codec_.indexSlot().cellWidth(), codec_.pieceSlot().cellWidth());
@@ -60,6 +58,8 @@ Status Embedder::assign() {
                      std::to_string(welded_.vertexCount()) + " vertices"};
   }
 
+  scarce_ = order.size() < kScarceRepeats * pieces;
+
   std::array<double, 3> low, high;
   low.fill(1e300), high.fill(-1e300);
   for (std::size_t i = 0; i < positions_.size(); ++i) {
@@ -79,7 +79,7 @@ Status Embedder::assign() {
   for (std::size_t i = 0; i < curve.size(); ++i) order[i] = curve[i].second;
   // Where many cells are coarse, each piece gets one of the finest cells first, so that none depends on coarse ones alone.
   const auto fine = std::count_if(order.begin(), order.end(),
-                                  [&](std::uint32_t i) { return coarseness(cells_[i].quad) <= kFine; });
+                                  [&](std::uint32_t i) { return coarseness(cells_[i].quad) <= kFineCoarseness; });
   if (static_cast<std::size_t>(fine) < 2 * std::size_t{pieces} && order.size() > pieces) {
     std::vector<double> all;
     for (std::uint32_t i : order) all.push_back(coarseness(cells_[i].quad));
@@ -96,6 +96,30 @@ Status Embedder::assign() {
       const std::size_t count = std::min({kWindow, std::size_t{pieces - first}, order.size() - block - first});
       assignWindow({order.data() + block + first, count}, first);
     }
+  return adoptOrphans(order);
+}
+
+// A piece whose every cell refused it (no legal ratio pair near enough) takes a cell from one of the richest pieces.
+Status Embedder::adoptOrphans(const std::vector<std::uint32_t>& order) {
+  for (std::uint32_t piece = 0; piece < copies_.size(); ++piece) {
+    if (copies_[piece] > 0) continue;
+    bool adopted = false;
+    for (std::uint32_t least = *std::max_element(copies_.begin(), copies_.end()); least >= 2 && !adopted; --least)
+      for (std::uint32_t cell : order) {
+        const std::uint32_t former = cells_[cell].piece;
+        if (former == kNoPiece || copies_[former] != least) continue;
+        PlannedCell changed = cells_[cell];
+        if (!plan(changed, piece)) continue;
+        cells_[cell] = changed;
+        --copies_[former];
+        ++copies_[piece];
+        adopted = true;
+        break;
+      }
+    if (!adopted)
+      return Error{ErrorCode::capacity, "piece " + std::to_string(piece) + " of " + std::to_string(copies_.size()) +
+                                            " fits into none of the " + std::to_string(order.size()) + " usable cells"};
+  }
   return okStatus();
 }
 

@@ -14,9 +14,9 @@
 namespace quadmark {
 namespace {
 
-constexpr double kUnwantedUnits = 12;   // somewhat more than the decoder's kExactUnits
-constexpr double kTiltUnits = 200;      // tilt: far beyond the decoder's tolerance, still about 1e-5 of the model
-constexpr int kRounds = 6;
+constexpr double kUnwantedUnits = 5;   // somewhat more than the decoder's kExactUnits
+constexpr double kTiltUnits = 600;      // tilt: far beyond the decoder's tolerance, still about 1e-5 of the model
+constexpr int kRounds = 16;
 
 double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 

@@ -2,17 +2,23 @@
 // The state that the embedder's stages share: assign -> write -> separate -> verify.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "quadmark/cells.h"
 #include "quadmark/digits.h"
 #include "quadmark/embed.h"
+#include "quadmark/extract.h"
 #include "quadmark/payload.h"
 
 namespace quadmark {
 
 inline constexpr std::uint32_t kNoPiece = 0xffffffffu;
+
+/// Coarseness of a cell: what one rounding of one coordinate may move a ratio by, in digits. Above kMaxCoarseness even
+/// an unattacked file could not hold the digits; above kFineCoarseness the rounding after an affine map may be too much.
+inline constexpr double kMaxCoarseness = 4, kFineCoarseness = 0.1;
 
 /// A cell with what it shall carry.
 struct PlannedCell {
@@ -54,11 +60,14 @@ class Embedder {
   void writeCell(PlannedCell& cell);
   void settleCell(const PlannedCell& cell);
   [[nodiscard]] double misfit(const PlannedCell& cell) const;
+  [[nodiscard]] double misfit(const PlannedCell& cell, const double* const points[4]) const;
+  [[nodiscard]] double misfitAfterMaps(const PlannedCell& cell) const;
   [[nodiscard]] bool plan(PlannedCell& cell, std::uint32_t piece);
   [[nodiscard]] MarkedMesh result() const;
 
   // embed_assign.cpp
   Status assign();
+  Status adoptOrphans(const std::vector<std::uint32_t>& order);
   void assignWindow(std::span<std::uint32_t> cells, std::uint32_t firstPiece);
   [[nodiscard]] double coarseness(const Quad& quad) const;
 
@@ -70,10 +79,15 @@ class Embedder {
   [[nodiscard]] bool isCell(const Quad& set) const;
 
   // embed_verify.cpp
+  using AffineMap = std::array<double, 9>;  ///< row major, no translation
+  [[nodiscard]] static const std::vector<AffineMap>& verificationMaps();
+  void applyRounded(const AffineMap& map, const double* point, double* out) const;
+  [[nodiscard]] std::vector<double> mapped(const AffineMap& map) const;
   Status verify(const MeshProgress& progress);
-  [[nodiscard]] bool readsExactly(const WeldedMesh& welded, const std::vector<double>& positions) const;
-  std::uint32_t repair(const WeldedMesh& welded, const std::vector<double>& positions,
-                       const std::vector<std::uint32_t>& toOwn);
+  bool check(const WeldedMesh& welded, const std::vector<double>& positions, bool mayRepair, std::uint64_t& salt);
+  [[nodiscard]] bool readsReordered() const;
+  [[nodiscard]] std::vector<std::uint32_t> badPieces(const Extraction& read) const;
+  void repair(const std::vector<std::uint32_t>& bad, const Extraction& read, std::uint64_t& salt);
 
   const Mesh& mesh_;
   const std::span<const std::uint8_t> bits_;
@@ -89,6 +103,7 @@ class Embedder {
   std::vector<PlannedCell> cells_;
   std::vector<std::uint32_t> cellOf_;     ///< per welded vertex: cell index or kNoVertex
   std::vector<std::uint32_t> copies_;     ///< per piece
+  bool scarce_ = false;                   ///< fewer than kScarceRepeats copies per piece
   MarkedMesh report_;
 };
 

@@ -124,10 +124,16 @@ class Extractor {
 
   void take(const Candidate& c) {
     const Reading& r = c.reading;
-    // Near the edge of its digit cell a reading may belong to the neighbour.
+    // Near the edge of its digit cell a reading may belong to the neighbour: the more so, the more rounding alone may
+    // have moved it. z is the distance to the edge in standard deviations, the quartic a stand-in for the normal tail.
     const double off = std::max(std::fabs(r.residue1), std::fabs(r.residue2));
+    const double digit = std::min(codec_.indexSlot().cellWidth(), codec_.pieceSlot().cellWidth());
+    const double sigma = 0.6 * rounding_.unit(c.quad, positions_.data()) /
+                         (std::min(c.quad.lengthAC, c.quad.lengthBD) * digit);
+    const double z = 1 + (0.5 - off) / std::max(sigma, 1e-3);
+    const double sound = c.purity * (1 - 2 / (1 + z * z * z * z));
     const double central = off <= 0.25 ? 1 : std::max(0.05, (0.5 - off) / 0.25);
-    const double weight = exactLog((1 + c.purity) / (1 - c.purity)) * central;
+    const double weight = exactLog((1 + sound) / (1 - sound)) * central;
     accepted_.push_back({label(r), r.index, r.piece ^ pad_(r.index, r.prefix1, r.prefix2), static_cast<float>(c.purity),
                          static_cast<float>(weight)});
     if (c.purity >= kTrustedPurity) {

@@ -23,11 +23,12 @@ struct Rounding {
   /// The unit in which gaps are measured: one coordinate's largest rounding error near these points, but never below
   /// 1e-8 of the longer diagonal (D4).
   [[nodiscard]] double unit(const Quad& quad, const double* positions) const;
+  [[nodiscard]] double unit(const double* const points[4], double longerDiagonal) const;
 };
 [[nodiscard]] Rounding roundingOf(Precision precision);
 
 /// A gap of up to this many units counts as exactly coplanar.
-inline constexpr double kExactUnits = 8;
+inline constexpr double kExactUnits = 4;
 
 struct SearchResult {
   std::vector<Quad> cells;             ///< vertex disjoint, each exactly coplanar up to rounding
