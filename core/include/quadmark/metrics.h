@@ -11,6 +11,8 @@
 namespace quadmark {
 
 /// Distances as fractions of the original's bounding-box diagonal ("Rel"), angles in degrees.
+/// Normals are taken per welded vertex of the original (so that a seam does not count twice); vertices whose normal
+/// vanishes on either side are left out. log10 and atan2 are not bit-equal between platforms: nothing decides by these.
 struct Distortion {
   /// 10 log10( sum |v - c|^2 / sum |v - v'|^2 ) over the vertices that faces use, twins counted once each as stored,
   /// c = their mean. Infinity when nothing moved.
@@ -23,7 +25,8 @@ struct Distortion {
   double meanNormalDeg = 0;    ///< mean angle between corresponding vertex normals
 };
 
-/// Compares two meshes with the same connectivity and vertex order. Cost: linear.
+/// Compares two meshes with the same connectivity and vertex order; only the positions of `marked` are used. A mesh
+/// without faces gives zeros and infinite ratios. Cost: linear, about 1 microsecond per vertex.
 [[nodiscard]] Distortion distortion(const Mesh& original, const Mesh& marked);
 
 /// Two-sided Hausdorff distance in file units, in the manner of Metro (Cignoni et al. 1998) for meshes with the same
@@ -31,11 +34,13 @@ struct Distortion {
 /// corresponding place (one ring) of the other. An upper bound of the distance for those samples. Cost: linear.
 [[nodiscard]] double hausdorffLocal(const Mesh& a, const Mesh& b);
 
-/// Two-sided Hausdorff distance between any two meshes, file units, by a uniform grid over triangles;
-/// `samplesPerFace` (>= 1) deterministic points per face plus all vertices.
+/// Two-sided Hausdorff distance between any two meshes, file units, by a tree of boxes over the triangles (polygons are
+/// fanned); `samplesPerFace` (>= 0) deterministic points per triangle plus all used vertices. Infinite when one mesh alone
+/// has no faces. Cost: n log n.
 [[nodiscard]] double hausdorff(const Mesh& a, const Mesh& b, int samplesPerFace = 4);
 
-/// Bit error rate: (wrong + erased / 2) / all. `erased` empty or per bit. Sizes must agree.
+/// Bit error rate: (wrong + erased / 2) / all. `erased` empty or per bit (nonzero: not read). Any nonzero bit counts as
+/// 1. Sizes must agree; 0 for no bits.
 [[nodiscard]] double bitErrorRate(std::span<const std::uint8_t> expected, std::span<const std::uint8_t> read,
                                   std::span<const std::uint8_t> erased = {});
 

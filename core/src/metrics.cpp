@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "quadmark/metrics.h"
+
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "point_triangle.h"
+#include "quadmark/adjacency.h"
+
+namespace quadmark {
+namespace {
+
+using detail::Point;
+
+Point pointAt(const std::vector<double>& positions, std::size_t vertex) {
+  const double* p = &positions[3 * vertex];
+  return {p[0], p[1], p[2]};
+}
+
+std::vector<std::uint8_t> usedVertices(const Mesh& mesh) {
+  std::vector<std::uint8_t> used(mesh.vertexCount(), 0);
+  for (std::uint32_t v : mesh.faceVertices) used[v] = 1;
+  return used;
+}
+
+/// Area-weighted normals per welded vertex, not normalised. A polygon counts by its vector area (Newell), the same for
+/// any choice of first corner.
+std::vector<Point> vertexNormals(const Mesh& mesh, const std::vector<double>& positions, const WeldedMesh& welded) {
+  std::vector<Point> normals(welded.vertexCount());
+  for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+    const std::size_t begin = mesh.faceBegin(f), end = mesh.faceEnd(f);
+    if (end - begin < 3) continue;
+    const Point first = pointAt(positions, mesh.faceVertices[begin]);
+    Point area;
+    for (std::size_t c = begin + 2; c < end; ++c)
+      area = area + cross(pointAt(positions, mesh.faceVertices[c - 1]) - first,
+                          pointAt(positions, mesh.faceVertices[c]) - first);
+    for (std::size_t c = begin; c < end; ++c) {
+      Point& normal = normals[welded.weldedOf[mesh.faceVertices[c]]];
+      normal = normal + area;
+    }
+  }
+  return normals;
+}
+
+void measureDisplacement(const Mesh& original, const Mesh& marked, double diagonal, Distortion& out) {
+  const std::vector<std::uint8_t> used = usedVertices(original);
+  double count = 0, signal = 0, noise = 0, largest = 0;
+  Point sum;
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (!used[v]) continue;
+    sum = sum + pointAt(original.positions, v);
+    count += 1;
+  }
+  out.snrDb = std::numeric_limits<double>::infinity();
+  if (count == 0) return;
+  const Point mean = (1 / count) * sum;
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (!used[v]) continue;
+    const Point p = pointAt(original.positions, v);
+    const double moved = squared(pointAt(marked.positions, v) - p);
+    signal += squared(p - mean);
+    noise += moved;
+    largest = std::max(largest, moved);
+  }
+  if (noise > 0) out.snrDb = 10 * std::log10(signal / noise);
+  if (diagonal > 0) {
+    out.rmsRel = std::sqrt(noise / count) / diagonal;
+    out.maxRel = std::sqrt(largest) / diagonal;
+  }
+}
+
+void measureNormals(const Mesh& original, const Mesh& marked, Distortion& out) {
+  constexpr double kPi = 3.14159265358979323846;
+  const WeldedMesh welded = weld(original);
+  const std::vector<Point> before = vertexNormals(original, original.positions, welded);
+  const std::vector<Point> after = vertexNormals(original, marked.positions, welded);
+  double count = 0, squares = 0, sum = 0;
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    if (!(squared(before[v]) > 0) || !(squared(after[v]) > 0)) continue;
+    // atan2 of sine and cosine is exact for the tiny angles met here, where acos is not.
+    const double angle = std::atan2(std::sqrt(squared(cross(before[v], after[v]))), dot(before[v], after[v]));
+    squares += angle * angle;
+    sum += angle;
+    count += 1;
+  }
+  const double rms = count > 0 ? std::sqrt(squares / count) : 0;
+  out.normalPsnrDb = rms > 0 ? 20 * std::log10(kPi / rms) : std::numeric_limits<double>::infinity();
+  out.meanNormalDeg = count > 0 ? sum / count * 180 / kPi : 0;
+}
+
+}  // namespace
+
+Distortion distortion(const Mesh& original, const Mesh& marked) {
+  assert(original.positions.size() == marked.positions.size());
+  Distortion out;
+  const double diagonal = boundingDiagonal(original);
+  measureDisplacement(original, marked, diagonal, out);
+  measureNormals(original, marked, out);
+  if (diagonal > 0) out.hausdorffRel = hausdorffLocal(original, marked) / diagonal;
+  return out;
+}
+
+double bitErrorRate(std::span<const std::uint8_t> expected, std::span<const std::uint8_t> read,
+                    std::span<const std::uint8_t> erased) {
+  assert(expected.size() == read.size() && (erased.empty() || erased.size() == read.size()));
+  if (expected.empty()) return 0;
+  std::size_t halves = 0;  // in half errors, so that the sum stays exact
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (!erased.empty() && erased[i] != 0) halves += 1;
+    else if ((expected[i] != 0) != (read[i] != 0)) halves += 2;
+  }
+  return 0.5 * static_cast<double>(halves) / static_cast<double>(expected.size());
+}
+
+}  // namespace quadmark

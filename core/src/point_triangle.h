@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Squared distance from a point to a triangle, for the surface distances of metrics.h.
+#pragma once
+
+#include <algorithm>
+
+namespace quadmark::detail {
+
+struct Point {
+  double x = 0, y = 0, z = 0;
+};
+inline Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Point cross(const Point& a, const Point& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double squared(const Point& a) { return dot(a, a); }
+
+inline double squaredToSegment(const Point& p, const Point& a, const Point& b) {
+  const Point ab = b - a, ap = p - a;
+  const double length = squared(ab);
+  const double t = length > 0 ? std::min(1.0, std::max(0.0, dot(ap, ab) / length)) : 0;
+  return squared(ap - t * ab);
+}
+
+/// Degenerate triangles (segments, points) are handled as what they are.
+inline double squaredToTriangle(const Point& p, const Point& a, const Point& b, const Point& c) {
+  const Point ab = b - a, ac = c - a, ap = p - a;
+  const Point normal = cross(ab, ac);
+  const double area = squared(normal);
+  if (area > 0) {  // inside the prism over the triangle: distance to the plane
+    const double v = dot(cross(ap, ac), normal), w = dot(cross(ab, ap), normal);
+    if (v >= 0 && w >= 0 && v + w <= area) {
+      const double height = dot(ap, normal);
+      return height * height / area;
+    }
+  }
+  return std::min({squaredToSegment(p, a, b), squaredToSegment(p, b, c), squaredToSegment(p, c, a)});
+}
+
+}  // namespace quadmark::detail
