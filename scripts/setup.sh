@@ -118,7 +118,7 @@ if [ $want_browser = yes ] && [ -z "$browser" ]; then
     browser=$(find_browser)
   fi
   if [ -z "$browser" ]; then
-    install_packages libnss3 fonts-liberation
+    install_packages libnss3 libexpat1 fonts-liberation
     say "no Chromium package here: fetching a headless one from npm"
     npm install --prefix "$deps/chromium" --no-save --no-package-lock --no-audit --no-fund --silent '@sparticuz/chromium' ||
       fail "npm could not install @sparticuz/chromium; set QUADMARK_CHROMIUM to a Chromium or use --no-browser"

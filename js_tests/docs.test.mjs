@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The READMEs are true: their JavaScript and quadmark command blocks are run, in order, in a folder with the files they
+// name: model.glb, model.ply and logo.png. A block under an HTML comment `<!-- not run: reason -->` is left out.
+import assert from 'node:assert/strict';
+import { existsSync, mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
+import { delimiter, join } from 'node:path';
+import { test } from 'node:test';
+import { cliFile, repository, run, temporaryFolder } from './support/files.mjs';
+import { logo, logoPng, sculpture } from './support/marks.mjs';
+
+function blocksOf(file) {
+  const text = readFileSync(file, 'utf8');
+  return [...text.matchAll(/(<!--[^>]*not run[^>]*-->\s*)?^```(\w+)\n([\s\S]*?)^```$/gm)]
+    .filter(([, skipped]) => skipped === undefined)
+    .map(([, , language, code]) => ({ language, code }));
+}
+
+async function workspace(t) {
+  const folder = temporaryFolder(t);
+  writeFileSync(join(folder, 'model.glb'), await sculpture('glb'));
+  writeFileSync(join(folder, 'model.ply'), await sculpture('ply'));
+  writeFileSync(join(folder, 'logo.png'), logoPng(logo()));
+  writeFileSync(join(folder, 'package.json'), '{ "type": "module" }');
+  mkdirSync(join(folder, 'node_modules'));
+  symlinkSync(join(repository, 'node'), join(folder, 'node_modules/quadmark'));
+  mkdirSync(join(folder, 'bin'));
+  symlinkSync(cliFile, join(folder, 'bin/quadmark'));
+  return folder;
+}
+
+for (const name of ['node/README.md', 'README.md']) {
+  const file = join(repository, name);
+  test(`the blocks of ${name} run`, { skip: existsSync(file) ? false : `${name} does not exist` }, async (t) => {
+    const folder = await workspace(t);
+    const env = { PATH: `${join(folder, 'bin')}${delimiter}${process.env.PATH}` };
+    let runs = 0;
+    for (const { language, code } of blocksOf(file)) {
+      if (language === 'js' || language === 'mjs') {
+        writeFileSync(join(folder, 'block.mjs'), code);
+        const { status, stderr } = await run(process.execPath, ['block.mjs'], { cwd: folder, env });
+        assert.equal(status, 0, `${code}\n${stderr}`);
+        ++runs;
+      } else if (language === 'sh' && /^\s*(npx )?quadmark /m.test(code)) {
+        const script = `set -e\n${code.replace(/\bnpx quadmark\b/g, 'quadmark')}`;
+        const { status, stderr } = await run('bash', ['-c', script], { cwd: folder, env });
+        assert.equal(status, 0, `${code}\n${stderr}`);
+        ++runs;
+      }
+    }
+    if (name === 'node/README.md') assert.ok(runs >= 3, `${runs} blocks`);
+  });
+}

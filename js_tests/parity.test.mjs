@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Native and wasm give the same bytes: generated models, attacks, marked files, and everything that is read back.
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { basename, dirname, join } from 'node:path';
+import { test } from 'node:test';
+import { createKey, embed, externalUris, extract, inspect } from 'quadmark';
+import { attack, generate } from 'quadmark/lab';
+import { realModels, repository, run, temporaryFolder } from './support/files.mjs';
+import { logo, logoPng } from './support/marks.mjs';
+
+const native = process.env.QUADMARK_NATIVE ?? join(repository, 'build/native/bench/quadmark_native');
+const skip = existsSync(native) ? false : `${native} is not built (cmake --build --preset release)`;
+const equal = (actual, expected, what) =>
+  assert.equal(Buffer.compare(Buffer.from(actual), Buffer.from(expected)), 0, `${what}: native and wasm differ`);
+
+async function runNative(...args) {
+  const { status, json, stderr } = await run(native, args.map(String));
+  assert.equal(status, 0, stderr || JSON.stringify(json));
+  return json[0];
+}
+
+/** Marks, damages and reads `path` natively and in wasm, comparing everything. */
+async function compare(t, path, { size = 24, L = 2, attacks = [{ kind: 'crop', amount: 0.5 }] } = {}) {
+  const folder = temporaryFolder(t);
+  const name = basename(path);
+  const image = logo(size);
+  const key = await createKey({ width: size, height: size, L });
+  writeFileSync(join(folder, 'key.json'), JSON.stringify(key));
+  writeFileSync(join(folder, 'logo.png'), logoPng(image));
+  const model = readFileSync(path);
+  const resources = {};
+  for (const uri of await externalUris(model)) resources[uri] = readFileSync(join(dirname(path), decodeURIComponent(uri)));
+  const nativeResources = Object.keys(resources).map((uri) => `${uri}=${join(dirname(path), decodeURIComponent(uri))}`);
+
+  assert.deepEqual(await inspect(model, { resources }), await runNative('inspect', path, ...nativeResources), `${name}: inspect`);
+  const out = join(folder, name);
+  const nativeReport = await runNative('embed', path, out, join(folder, 'key.json'), 'image', join(folder, 'logo.png'), ...nativeResources);
+  const marked = await embed(model, { key, image, resources });
+  equal(marked.bytes, readFileSync(out), `${name}: marked file`);
+  const changed = Object.keys(marked.resources).sort();
+  changed.forEach((uri, i) => equal(marked.resources[uri], readFileSync(`${out}.${i}`), `${name}: ${uri}`));
+  assert.deepEqual(marked.report, nativeReport, `${name}: embed report`);
+
+  const read = async (file, bytes, given, what) => {
+    const there = Object.keys(given).map((uri) => `${uri}=${out}.${changed.indexOf(uri)}`);
+    const expected = await runNative('extract', file, join(folder, 'key.json'), ...there);
+    const result = await extract(bytes, { key, resources: given });
+    assert.deepEqual([...result.image.bits], expected.bits, `${what}: bits`);
+    assert.deepEqual([...result.image.erased], expected.erased, `${what}: erased`);
+    assert.deepEqual([...result.image.confidence], expected.confidence.map(Math.fround), `${what}: confidence`);
+    assert.equal(result.verdict, expected.verdict, what);
+    assert.equal(result.falsePositive, expected.falsePositive, what);
+    assert.deepEqual(result.report, expected.report, `${what}: extract report`);
+    return result;
+  };
+  const result = await read(out, marked.bytes, marked.resources, `${name}, marked`);
+  assert.deepEqual(result.image.bits, image.bits, `${name}: the image comes back`);
+  if (changed.length > 0) return;
+  for (const request of attacks) {
+    const what = `${name}, ${request.kind}`;
+    const { amount = 0, variant = '', iterations = 1, seed = 1 } = request;
+    const damagedPath = join(folder, 'damaged.ply');
+    await runNative('attack', out, damagedPath, request.kind, amount, variant, iterations, seed);
+    const damaged = await attack(marked.bytes, request);
+    equal(damaged.bytes, readFileSync(damagedPath), what);
+    await read(damagedPath, damaged.bytes, {}, what);
+  }
+}
+
+const ATTACKS = [
+  { kind: 'affine', variant: 'CB' }, { kind: 'reorder', seed: 3 }, { kind: 'crop', amount: 0.5 },
+  { kind: 'noise', amount: 1e-5, seed: 4 }, { kind: 'quantize', amount: 16, variant: 'common' },
+  { kind: 'quantize', amount: 14, variant: 'per-axis' }, { kind: 'smooth', amount: 1e-3, variant: 'taubin', iterations: 2 },
+  { kind: 'smooth', amount: 1e-3, variant: 'laplacian' }, { kind: 'simplify', amount: 0.3, variant: 'meshopt' },
+  { kind: 'simplify', amount: 0.2, variant: 'qem' }, { kind: 'deform', amount: 0.5 }, { kind: 'local-noise', amount: 1e-4 },
+];
+
+test('generated models are bit-equal', { skip }, async (t) => {
+  const folder = temporaryFolder(t);
+  for (const [name, vertices, format] of [['sculpture', 9000, 'glb'], ['part', 5000, 'ply'], ['icosphere', 600, 'ply']]) {
+    const path = join(folder, `${name}.${format}`);
+    await runNative('generate', path, name, vertices, 5);
+    equal((await generate({ name, vertices, format, seed: 5 })).bytes, readFileSync(path), name);
+  }
+});
+
+test('a sculpture is marked, damaged in every way and read alike', { skip }, async (t) => {
+  const path = join(temporaryFolder(t), 'sculpture.ply');
+  writeFileSync(path, (await generate({ name: 'sculpture', vertices: 9000 })).bytes);
+  await compare(t, path, { attacks: ATTACKS });
+});
+
+test('a machined part, full of coplanar faces, is marked and read alike', { skip }, async (t) => {
+  const path = join(temporaryFolder(t), 'part.glb');
+  writeFileSync(path, (await generate({ name: 'part', vertices: 8000, format: 'glb' })).bytes);
+  await compare(t, path, { L: 3, attacks: ATTACKS.slice(0, 3) });
+});
+
+test('real models are marked and read alike', { skip }, async (t) => {
+  for (const { path } of realModels(t, ['bunny.ply', 'fandisk.glb', 'rocker-arm.ply', 'beast-quads.ply', 'Duck.glb', 'SheenCloth.glb', 'Fox/Fox.gltf'])) {
+    const small = /Duck|Fox/.test(path);
+    await compare(t, path, { L: /fandisk/.test(path) ? 3 : 2, size: small ? 8 : 24, attacks: [{ kind: 'affine', variant: 'CB' }, { kind: 'crop', amount: 0.5 }] });
+  }
+});

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Temporary folders, real models, and the command line as a user runs it.
+import { spawn } from 'node:child_process';
+import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+export const repository = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
+export const cliFile = join(repository, 'node/src/cli/main.js');
+
+/** A fresh folder that goes when the test `t` ends. */
+export function temporaryFolder(t) {
+  const folder = mkdtempSync(join(tmpdir(), 'quadmark-'));
+  t.after(() => rmSync(folder, { recursive: true, force: true }));
+  return folder;
+}
+
+const modelsFolder = resolve(process.env.QUADMARK_MODELS ?? join(repository, '../shared/models'));
+
+/** Path of a real model, or null after saying that it is not there. */
+export function realModel(t, name) {
+  const path = join(modelsFolder, name);
+  if (existsSync(path)) return path;
+  t.diagnostic(`real model ${name} is not in ${modelsFolder} (set QUADMARK_MODELS): this part was not tested`);
+  return null;
+}
+
+/** The names of `names` that are there, as [{ name, path }]. */
+export function realModels(t, names) {
+  return names.map((name) => ({ name, path: realModel(t, name) })).filter(({ path }) => path !== null);
+}
+
+/** Runs a program to its end: { status, stdout (Buffer), stderr (text), json (parsed lines of stdout) }. */
+export function run(program, args, { input, cwd, env } = {}) {
+  return new Promise((resolveRun, reject) => {
+    const child = spawn(program, args, { cwd, env: { ...process.env, QUADMARK_KEY_FILE: '', ...env } });
+    const out = [];
+    let stderr = '';
+    child.stdout.on('data', (chunk) => out.push(chunk));
+    child.stderr.on('data', (chunk) => { stderr += chunk; });
+    child.stdin.on('error', () => {});  // a program that fails early does not read its input
+    child.on('error', reject);
+    child.on('close', (status) => {
+      const stdout = Buffer.concat(out);
+      resolveRun({
+        status,
+        stdout,
+        stderr,
+        get json() { return stdout.toString().trim().split('\n').map((line) => JSON.parse(line)); },
+      });
+    });
+    child.stdin.end(input);
+  });
+}
+
+export const quadmark = (args, options) => run(process.execPath, [cliFile, ...args], options);

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// glTF taken apart with nothing of ours: containers, and what a mark may change in them.
+import assert from 'node:assert/strict';
+
+/** { text, json, bin } of a GLB or .gltf file. */
+export function openGltf(bytes) {
+  const file = Buffer.from(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  if (file.toString('latin1', 0, 4) !== 'glTF') return { text: file.toString(), json: JSON.parse(file.toString()), bin: null };
+  assert.equal(file.readUInt32LE(8), file.length, 'GLB length field');
+  const jsonLength = file.readUInt32LE(12);
+  assert.equal(jsonLength % 4, 0, 'JSON chunk is padded');
+  const text = file.toString('utf8', 20, 20 + jsonLength);
+  const at = 20 + jsonLength;
+  const bin = at < file.length ? file.subarray(at + 8, at + 8 + file.readUInt32LE(at)) : null;
+  return { text, json: JSON.parse(text), bin };
+}
+
+/** Makes a .gltf with the external buffer `uri` from a GLB. */
+export function splitGlb(glb, uri) {
+  const { json, bin } = openGltf(glb);
+  json.buffers[0].uri = uri;
+  json.buffers[0].byteLength = bin.length;
+  return { gltf: Buffer.from(JSON.stringify(json, null, 1)), bin: Buffer.from(bin) };
+}
+
+const positionAccessors = (json) => new Set(json.meshes.flatMap((mesh) => mesh.primitives)
+  .filter((primitive) => (primitive.mode ?? 4) >= 4).map((primitive) => primitive.attributes.POSITION));
+
+/** Fails unless the two JSON texts are one but for min and max of POSITION accessors. */
+export function assertSameJson(before, after) {
+  const mask = (text) => text.replace(/"(min|max)"\s*:\s*\[[^\]]*\]/g, '"$1":[]').trimEnd();
+  assert.equal(mask(after.text), mask(before.text), 'JSON text outside min and max');
+  const strip = ({ json }) => {
+    const copy = structuredClone(json);
+    for (const index of positionAccessors(json)) {
+      delete copy.accessors[index].min;
+      delete copy.accessors[index].max;
+    }
+    return copy;
+  };
+  assert.deepEqual(strip(after), strip(before), 'JSON outside min and max of POSITION');
+}
+
+/** Fails unless buffer `index` differs only inside POSITION components. Returns how many bytes differ. */
+export function assertOnlyPositionsDiffer(json, index, before, after) {
+  assert.equal(after.length, before.length, 'buffer length');
+  const allowed = new Uint8Array(before.length);
+  for (const number of positionAccessors(json)) {
+    const accessor = json.accessors[number];
+    const view = json.bufferViews[accessor.bufferView];
+    if (view.buffer !== index) continue;
+    const start = (view.byteOffset ?? 0) + (accessor.byteOffset ?? 0);
+    for (let i = 0; i < accessor.count; ++i) {
+      const at = start + i * (view.byteStride ?? 12);
+      allowed.fill(1, at, at + 12);
+    }
+  }
+  let changed = 0;
+  for (let i = 0; i < before.length; ++i) {
+    if (before[i] === after[i]) continue;
+    assert.ok(allowed[i], `byte ${i} of buffer ${index} differs outside POSITION`);
+    ++changed;
+  }
+  return changed;
+}
+
+/** Fails unless min and max of every POSITION accessor are those of its stored values. */
+export function assertTrueBounds(json, buffers) {
+  for (const number of positionAccessors(json)) {
+    const accessor = json.accessors[number];
+    const view = json.bufferViews[accessor.bufferView];
+    const start = (view.byteOffset ?? 0) + (accessor.byteOffset ?? 0);
+    const min = [Infinity, Infinity, Infinity], max = [-Infinity, -Infinity, -Infinity];
+    for (let i = 0; i < accessor.count; ++i) {
+      for (let axis = 0; axis < 3; ++axis) {
+        const value = buffers[view.buffer].readFloatLE(start + i * (view.byteStride ?? 12) + 4 * axis);
+        min[axis] = Math.min(min[axis], value);
+        max[axis] = Math.max(max[axis], value);
+      }
+    }
+    assert.deepEqual(accessor.min.map(Math.fround), min, `accessor ${number}: min`);
+    assert.deepEqual(accessor.max.map(Math.fround), max, `accessor ${number}: max`);
+  }
+}

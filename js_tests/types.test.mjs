@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// The hand-written types: what they declare is what the modules export, and the documented use compiles.
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import ts from 'typescript';
+import * as lab from 'quadmark/lab';
+import * as quadmark from 'quadmark';
+import { repository } from './support/files.mjs';
+
+/** Names of the values (not types) that a .d.ts exports. */
+function declaredValues(file) {
+  const program = ts.createProgram([file], { noEmit: true, strict: true, target: ts.ScriptTarget.ES2022 });
+  const checker = program.getTypeChecker();
+  const symbol = checker.getSymbolAtLocation(program.getSourceFile(file));
+  return checker.getExportsOfModule(symbol)
+    .filter((item) => item.flags & ts.SymbolFlags.Value)
+    .map((item) => item.name)
+    .sort();
+}
+
+/** Messages of the TypeScript compiler on `source` placed inside the workspace. */
+function compile(t, source, types = []) {
+  const folder = mkdtempSync(join(repository, 'js_tests/.types-'));
+  t.after(() => rmSync(folder, { recursive: true }));
+  const file = join(folder, 'use.mts');
+  writeFileSync(file, source);
+  const program = ts.createProgram([file], {
+    noEmit: true, strict: true, target: ts.ScriptTarget.ES2022, module: ts.ModuleKind.NodeNext,
+    moduleResolution: ts.ModuleResolutionKind.NodeNext, lib: ['lib.es2022.d.ts', 'lib.dom.d.ts'], types,
+  });
+  return ts.getPreEmitDiagnostics(program).map((item) => ts.flattenDiagnosticMessageText(item.messageText, '\n'));
+}
+
+test('the types declare exactly what the modules export', () => {
+  assert.deepEqual(declaredValues(join(repository, 'node/src/index.d.ts')), Object.keys(quadmark).sort());
+  assert.deepEqual(declaredValues(join(repository, 'node/src/lab.d.ts')), Object.keys(lab).sort());
+});
+
+test('the types know every error code', () => {
+  const file = join(repository, 'node/src/index.d.ts');
+  const program = ts.createProgram([file], { noEmit: true });
+  const checker = program.getTypeChecker();
+  const source = program.getSourceFile(file);
+  const alias = source.statements.find((node) => ts.isTypeAliasDeclaration(node) && node.name.text === 'ErrorCode');
+  const codes = checker.getTypeAtLocation(alias).types.map((type) => type.value).sort();
+  assert.deepEqual(codes, Object.keys(quadmark.ERROR_EXIT_STATUS).sort());
+});
+
+test('correct use compiles under strict', (t) => {
+  const messages = compile(t, `
+    import { createKey, embed, extract, inspect, QuadmarkError, type Key } from 'quadmark';
+    import { attack } from 'quadmark/lab';
+    const model = new Uint8Array(10);
+    const key: Key = await createKey({ width: 24, height: 24, owner: 'me' });
+    const controller = new AbortController();
+    const { bytes, resources, report } = await embed(model, {
+      key, image: { width: 2, height: 2, bits: [0, 1, 1, 0] },
+      options: { signal: controller.signal, onProgress: ({ stage, done }) => console.log(stage.length, done.toFixed(2)) },
+    });
+    const warnings: string[] = report.warnings;
+    const damaged = await attack(bytes, { kind: 'crop', amount: 0.5, resources });
+    const { verdict, image, id } = await extract(damaged.bytes, { key: JSON.stringify(key), reference: bytes });
+    const text: 'match' | 'none' | 'inconclusive' = verdict;
+    const confidence: Float32Array = image.confidence;
+    const hex: string | null = id;
+    try { await inspect(model); } catch (error) {
+      if (error instanceof QuadmarkError && error.code === 'bad_file') console.log(error.message);
+    }
+    console.log(warnings, text, confidence, hex);
+  `);
+  assert.deepEqual(messages, []);
+});
+
+test('misuse does not compile', (t) => {
+  const wrong = [
+    `import { embed } from 'quadmark'; await embed('model.ply', { key: {} as any });`,
+    `import { embed } from 'quadmark'; await embed(new Uint8Array(1), { image: new Uint8Array(1) });`,
+    `import { QuadmarkError } from 'quadmark'; new QuadmarkError('no_such_code', '');`,
+    `import { createKey } from 'quadmark'; await createKey({ scheme: 'robust' });`,
+  ];
+  for (const source of wrong) assert.notEqual(compile(t, source).length, 0, source);
+});
