@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "quadmark/io/model.h"
 
+#include <algorithm>
+
 #include "bytes.h"
+#include "data_uri.h"
+#include "gltf_container.h"
+#include "json_text.h"
 #include "quadmark/io/gltf.h"
 #include "quadmark/io/ply.h"
 
@@ -22,6 +27,22 @@ Result<std::unique_ptr<Model>> readModel(std::span<const std::uint8_t> file, con
   if (isGltf(file)) return readGltf(file, resources);
   return io::badFile("the file is not a PLY, glTF or GLB: it begins with " +
                      io::quoted(io::asText(file.first(file.size() < 8 ? file.size() : 8))));
+}
+
+Result<std::vector<std::string>> externalUris(std::span<const std::uint8_t> file) {
+  std::vector<std::string> uris;
+  if (isPly(file) || !isGltf(file)) return uris;
+  const Result<io::GltfContainer> container = io::openGltf(file);
+  if (!container) return container.error();
+  const Result<io::JsonValue> root = io::parseJson(container->json(file));
+  if (!root) return root.error();
+  root->find("buffers").forEachElement([&](io::JsonValue buffer) {
+    const io::JsonValue uri = buffer.find("uri");
+    if (!uri.isString() || io::isDataUri(io::unescapeJson(uri.text().substr(1, 64)))) return;
+    std::string text = uri.asString();
+    if (std::find(uris.begin(), uris.end(), text) == uris.end()) uris.push_back(std::move(text));
+  });
+  return uris;
 }
 
 }  // namespace quadmark

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "gltf_arrays.h"
+
+#include <algorithm>
+
+namespace quadmark::io {
+namespace {
+
+/// Equally spaced elements in a buffer.
+struct Layout {
+  std::uint32_t buffer = 0;
+  std::uint64_t start = 0, stride = 0, count = 0;
+  std::uint32_t width = 0;  // bytes per element
+  std::uint32_t accessor = kNone;
+  std::uint32_t array = kNone;  // of joined layouts: their own index
+
+  [[nodiscard]] std::uint64_t end() const { return start + stride * (count - 1) + width; }
+  [[nodiscard]] std::uint64_t residue() const { return start % stride; }
+};
+
+Layout layoutOf(const GltfDocument& document, const std::vector<std::uint32_t>& sameBuffer, std::uint32_t index) {
+  const GltfAccessor& accessor = document.accessors[index];
+  const GltfView& view = document.views[accessor.view];
+  Layout layout;
+  layout.buffer = sameBuffer[view.buffer];
+  layout.start = view.byteOffset + accessor.byteOffset;
+  layout.width = accessor.elementBytes();
+  layout.stride = view.byteStride == 0 ? layout.width : view.byteStride;
+  layout.count = accessor.count;
+  layout.accessor = index;
+  return layout;
+}
+
+/// Whether any element of one touches any element of the other. Elements of unrelated strides whose ranges overlap
+/// count as touching: no sane file interleaves so.
+bool shareBytes(const Layout& a, const Layout& b) {
+  if (a.buffer != b.buffer || a.start >= b.end() || b.start >= a.end()) return false;
+  if (a.count == 1 && b.count == 1) return true;
+  if (a.stride != b.stride && a.count != 1 && b.count != 1) return true;
+  const std::uint64_t stride = a.count == 1 ? b.stride : a.stride;
+  const std::uint64_t gap = (b.start % stride + stride - a.start % stride) % stride;  // from a's element to b's next
+  return gap < a.width || stride - gap < b.width;
+}
+
+/// POSITION accessors of triangle primitives, each once, in the order of their first use.
+std::vector<std::uint32_t> positionAccessors(const GltfDocument& document) {
+  std::vector<std::uint32_t> order;
+  std::vector<bool> seen(document.accessors.size());
+  for (const GltfPrimitive& primitive : document.primitives) {
+    if (!primitive.hasTriangles() || seen[primitive.position]) continue;
+    seen[primitive.position] = true;
+    order.push_back(primitive.position);
+  }
+  return order;
+}
+
+/// Joins layouts that share whole elements. Returns for each layout the array it went to.
+std::vector<std::uint32_t> joinWindows(std::vector<Layout>& layouts, std::vector<Layout>& arrays) {
+  std::vector<std::uint32_t> byPlace(layouts.size());
+  for (std::uint32_t i = 0; i < byPlace.size(); ++i) byPlace[i] = i;
+  std::sort(byPlace.begin(), byPlace.end(), [&](std::uint32_t left, std::uint32_t right) {
+    const Layout& a = layouts[left];
+    const Layout& b = layouts[right];
+    if (a.buffer != b.buffer) return a.buffer < b.buffer;
+    if (a.stride != b.stride) return a.stride < b.stride;
+    if (a.residue() != b.residue()) return a.residue() < b.residue();
+    if (a.start != b.start) return a.start < b.start;
+    return left < right;
+  });
+  std::vector<std::uint32_t> arrayOf(layouts.size());
+  for (const std::uint32_t index : byPlace) {
+    const Layout& layout = layouts[index];
+    Layout* last = arrays.empty() ? nullptr : &arrays.back();
+    const bool joins = last != nullptr && last->buffer == layout.buffer && last->stride == layout.stride &&
+                       last->residue() == layout.residue() && layout.start < last->end();
+    if (joins) {
+      const std::uint64_t count = (layout.start - last->start) / last->stride + layout.count;
+      last->count = std::max(last->count, count);
+    } else {
+      arrays.push_back(layout);
+      arrays.back().array = static_cast<std::uint32_t>(arrays.size() - 1);
+    }
+    arrayOf[index] = static_cast<std::uint32_t>(arrays.size() - 1);
+  }
+  return arrayOf;
+}
+
+/// Arrays by place, so that those near a layout are found without looking at all.
+class PlaceIndex {
+ public:
+  explicit PlaceIndex(std::vector<Layout> arrays) : arrays_(std::move(arrays)) {
+    std::sort(arrays_.begin(), arrays_.end(), [](const Layout& a, const Layout& b) {
+      if (a.buffer != b.buffer) return a.buffer < b.buffer;
+      return a.start != b.start ? a.start < b.start : a.accessor < b.accessor;
+    });
+    std::uint64_t largest = 0;
+    for (std::size_t i = 0; i < arrays_.size(); ++i) {
+      if (i == 0 || arrays_[i].buffer != arrays_[i - 1].buffer) largest = 0;
+      largest = std::max(largest, arrays_[i].end());
+      largestEnd_.push_back(largest);
+    }
+  }
+
+  /// An array other than the `except`th (in place order) that shares bytes with a layout, or nullptr.
+  [[nodiscard]] const Layout* findSharing(const Layout& layout, std::size_t except = ~std::size_t{0}) const {
+    const auto behind = std::lower_bound(arrays_.begin(), arrays_.end(), layout, [](const Layout& array, const Layout& l) {
+      return array.buffer != l.buffer ? array.buffer < l.buffer : array.start < l.end();
+    });
+    for (auto i = static_cast<std::size_t>(behind - arrays_.begin()); i-- > 0;) {
+      if (arrays_[i].buffer != layout.buffer || largestEnd_[i] <= layout.start) return nullptr;
+      if (i != except && shareBytes(arrays_[i], layout)) return &arrays_[i];
+    }
+    return nullptr;
+  }
+
+  [[nodiscard]] const std::vector<Layout>& arrays() const { return arrays_; }
+
+ private:
+  std::vector<Layout> arrays_;
+  std::vector<std::uint64_t> largestEnd_;  // within the buffer, up to this array
+};
+
+/// Data that is not positions but lies in the same bytes: patching would damage it.
+std::string findConflict(const GltfDocument& document, const std::vector<std::uint32_t>& sameBuffer,
+                         const PlaceIndex& index, const PositionArrays& result) {
+  const auto message = [](std::uint32_t position, const std::string& other) {
+    return "accessor " + std::to_string(position) + " (POSITION) shares bytes with " + other;
+  };
+  for (std::uint32_t i = 0; i < document.accessors.size(); ++i) {
+    const GltfAccessor& accessor = document.accessors[i];
+    const std::string other = "accessor " + std::to_string(i) + ", which holds other data";
+    if (result.windowOf[i] != kNone) {
+      if (accessor.usedOtherwise) return message(i, "itself under another name (" + other + ")");
+      continue;
+    }
+    if (accessor.view == kNone || accessor.count == 0 || document.views[accessor.view].buffer == kNone) continue;
+    const Layout layout = layoutOf(document, sameBuffer, i);
+    if (layout.width == 0 || layout.stride == 0) continue;
+    if (const Layout* array = index.findSharing(layout)) return message(array->accessor, other);
+  }
+  for (const std::uint32_t view : document.imageViews) {
+    const GltfView& image = document.views[view];
+    if (image.buffer == kNone || image.byteLength == 0) continue;
+    Layout range;
+    range.buffer = sameBuffer[image.buffer];
+    range.start = image.byteOffset;
+    range.stride = image.byteLength;
+    range.count = 1;
+    range.width = static_cast<std::uint32_t>(image.byteLength);
+    if (const Layout* array = index.findSharing(range)) {
+      return message(array->accessor, "bufferView " + std::to_string(view) + ", which holds an image");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<PositionArrays> collectPositionArrays(const GltfDocument& document, const std::vector<std::uint32_t>& sameBuffer) {
+  const std::vector<std::uint32_t> accessors = positionAccessors(document);
+  std::vector<Layout> layouts, joined;
+  for (const std::uint32_t accessor : accessors) layouts.push_back(layoutOf(document, sameBuffer, accessor));
+  const std::vector<std::uint32_t> arrayOf = joinWindows(layouts, joined);
+
+  const PlaceIndex index(joined);
+  for (std::size_t i = 0; i < index.arrays().size(); ++i) {
+    const Layout& array = index.arrays()[i];
+    if (const Layout* other = index.findSharing(array, i)) {
+      return unsupportedFile("accessor " + std::to_string(std::min(array.accessor, other->accessor)) + " and accessor " +
+                             std::to_string(std::max(array.accessor, other->accessor)) +
+                             " hold positions that overlap with different layouts");
+    }
+  }
+
+  PositionArrays result;
+  result.windowOf.assign(document.accessors.size(), kNone);
+  std::vector<std::uint32_t> number(joined.size(), kNone);  // joined -> result.arrays, in the order of first use
+  for (const std::uint32_t array : arrayOf) {
+    if (number[array] != kNone) continue;
+    number[array] = static_cast<std::uint32_t>(result.arrays.size());
+    const Layout& layout = joined[array];
+    result.arrays.push_back(PositionArray{layout.buffer, layout.start, static_cast<std::uint32_t>(layout.stride),
+                                          layout.count, result.vertexCount});
+    result.vertexCount += layout.count;
+  }
+  if (result.vertexCount > 0xfffffffeu) return tooLarge("glTF: more than 4294967294 vertices");
+  const auto addWindow = [&](const Layout& layout, std::uint32_t joinedArray) {
+    const PositionArray& array = result.arrays[number[joinedArray]];
+    result.windowOf[layout.accessor] = static_cast<std::uint32_t>(result.windows.size());
+    const std::uint64_t skipped = (layout.start - array.start) / array.stride;
+    result.windows.push_back(PositionWindow{layout.accessor, number[joinedArray], array.firstVertex + skipped, layout.count});
+  };
+  for (std::size_t i = 0; i < layouts.size(); ++i) addWindow(layouts[i], arrayOf[i]);
+
+  // Positions of points and lines, or accessors nobody uses, that lie in an array move with it: their bounds follow.
+  for (std::uint32_t i = 0; i < document.accessors.size(); ++i) {
+    const GltfAccessor& accessor = document.accessors[i];
+    const bool couldBe = result.windowOf[i] == kNone && !accessor.usedOtherwise && !accessor.sparse &&
+                         accessor.view != kNone && accessor.count > 0 && accessor.components == 3 &&
+                         accessor.componentType == kGltfFloat && document.views[accessor.view].buffer != kNone;
+    if (!couldBe) continue;
+    const Layout layout = layoutOf(document, sameBuffer, i);
+    const Layout* inside = index.findSharing(layout);
+    if (inside == nullptr || inside->stride != layout.stride || inside->residue() != layout.residue()) continue;
+    if (layout.start < inside->start || layout.end() > inside->end()) continue;
+    addWindow(layout, inside->array);
+  }
+  result.conflict = findConflict(document, sameBuffer, index, result);
+  return result;
+}
+
+}  // namespace quadmark::io

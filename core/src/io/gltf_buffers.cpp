@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "gltf_buffers.h"
+
+#include "data_uri.h"
+
+namespace quadmark::io {
+namespace {
+
+int hexDigit(char character) {
+  if (character >= '0' && character <= '9') return character - '0';
+  if (character >= 'a' && character <= 'f') return character - 'a' + 10;
+  if (character >= 'A' && character <= 'F') return character - 'A' + 10;
+  return -1;
+}
+
+std::string percentDecoded(const std::string& uri) {
+  std::string out;
+  for (std::size_t at = 0; at < uri.size(); ++at) {
+    const bool escape = uri[at] == '%' && at + 2 < uri.size() && hexDigit(uri[at + 1]) >= 0 && hexDigit(uri[at + 2]) >= 0;
+    out += escape ? static_cast<char>(16 * hexDigit(uri[at + 1]) + hexDigit(uri[at + 2])) : uri[at];
+    if (escape) at += 2;
+  }
+  return out;
+}
+
+/// The caller's entry for a URI: as spelled, percent-decoded, and both without a leading "./".
+Resources::const_iterator findResource(const Resources& resources, const std::string& uri) {
+  for (const std::string& spelling : {uri, percentDecoded(uri)}) {
+    if (const auto found = resources.find(spelling); found != resources.end()) return found;
+    if (spelling.substr(0, 2) != "./") continue;
+    if (const auto found = resources.find(spelling.substr(2)); found != resources.end()) return found;
+  }
+  return resources.end();
+}
+
+Result<BufferPlace> placeBuffer(const GltfBuffer& buffer, std::size_t index, const GltfContainer& container, Bytes file,
+                                const Resources& resources) {
+  const std::string name = "buffer " + std::to_string(index);
+  BufferPlace place;
+  place.byteLength = buffer.byteLength;
+  if (!buffer.hasUri) {
+    if (!container.isGlb || index != 0) return badFile(name + " has no uri and so no data");
+    if (!container.hasBin) return badFile(name + ": the GLB has no BIN chunk");
+    place.source = BufferPlace::Source::bin;
+    return place;
+  }
+  const std::string_view spelled = asText(file.subspan(buffer.uri.begin, buffer.uri.end - buffer.uri.begin));
+  // Resolving the escapes of a data: URI would copy all of it, so only its beginning is looked at.
+  if (isDataUri(unescapeJson(spelled.substr(0, 64)))) {
+    place.source = BufferPlace::Source::dataUri;
+    place.uri = buffer.uri;
+    return place;
+  }
+  const std::string uri = unescapeJson(spelled);
+  const auto found = findResource(resources, uri);
+  if (found == resources.end()) return badFile(name + ": the file " + quoted(uri) + " was not given");
+  place.source = BufferPlace::Source::resource;
+  place.key = found->first;
+  return place;
+}
+
+}  // namespace
+
+Result<std::vector<BufferPlace>> placeBuffers(const GltfDocument& document, const GltfContainer& container, Bytes file,
+                                              const Resources& resources) {
+  std::vector<bool> needed(document.buffers.size());
+  for (const GltfView& view : document.views) {
+    if (view.needed && view.buffer != kNone) needed[view.buffer] = true;
+  }
+  std::vector<BufferPlace> places(document.buffers.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!needed[i]) continue;
+    Result<BufferPlace> place = placeBuffer(document.buffers[i], i, container, file, resources);
+    if (!place) return place.error();
+    places[i] = std::move(place).value();
+  }
+  return places;
+}
+
+Result<BufferBytes> openBuffer(const BufferPlace& place, std::size_t index, const GltfContainer& container, Bytes file,
+                               const Resources& resources) {
+  const std::string name = "buffer " + std::to_string(index);
+  BufferBytes buffer;
+  std::string source;
+  switch (place.source) {
+    case BufferPlace::Source::absent: return badFile(name + " has no data");
+    case BufferPlace::Source::bin:
+      buffer.bytes = container.bin(file);
+      source = "the BIN chunk";
+      break;
+    case BufferPlace::Source::resource: {
+      const auto found = resources.find(place.key);
+      if (found == resources.end()) return badFile(name + ": the file " + quoted(place.key) + " was not given");
+      buffer.bytes = found->second;
+      source = quoted(place.key);
+      break;
+    }
+    case BufferPlace::Source::dataUri: {
+      const std::string_view spelled = asText(file.subspan(place.uri.begin, place.uri.end - place.uri.begin));
+      Result<std::vector<std::uint8_t>> decoded = decodeDataUri(spelled, name);
+      if (!decoded) return decoded.error();
+      buffer.decoded = std::move(decoded).value();
+      buffer.bytes = buffer.decoded;
+      source = "the data URI";
+      break;
+    }
+  }
+  if (buffer.bytes.size() < place.byteLength) {
+    return badFile(name + ": byteLength is " + std::to_string(place.byteLength) + ", " + source + " has " +
+                   std::to_string(buffer.bytes.size()) + " bytes");
+  }
+  return buffer;
+}
+
+}  // namespace quadmark::io

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#include "gltf_document.h"
+
+#include "gltf_fields.h"
+#include "gltf_normalise.h"
+#include "gltf_sections.h"
+
+namespace quadmark::io {
+namespace {
+
+constexpr std::uint64_t kMostEntries = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMostPrimitives = std::uint64_t{1} << 18;
+constexpr std::uint64_t kLargestSize = 0xffffffff;  // of anything counted in bytes or elements, on every platform
+
+std::string number(std::uint64_t value) { return std::to_string(value); }
+
+Status checkEntryCount(const char* what, std::uint64_t count, std::uint64_t most = kMostEntries) {
+  if (count <= most) return okStatus();
+  return tooLarge("glTF: more than " + number(most) + " " + what);
+}
+
+Status readPrimitive(JsonValue json, GltfPrimitive primitive, GltfDocument& document) {
+  const std::uint64_t lastAccessor = document.accessors.size() - 1;  // only used when there is one
+  FieldReader fields(json, primitive.place());
+  primitive.mode = static_cast<std::uint32_t>(fields.optional("mode", 4, 0x7fffffff));
+  const JsonValue attributes = json.find("attributes");
+  const JsonValue position = attributes.find("POSITION");
+  if (fields.error()) return *fields.error();
+  if (!position) {
+    document.warn(primitive.place() + ": no POSITION, passed through");
+    return okStatus();
+  }
+  if (!primitive.hasTriangles()) {
+    document.warn(primitive.place() + ": " + primitiveModeName(primitive.mode) + " are passed through");
+  }
+  primitive.draco = static_cast<bool>(json.find("extensions").find("KHR_draco_mesh_compression"));
+  if (primitive.draco && primitive.hasTriangles()) {
+    return unsupportedFile(primitive.place() + ": KHR_draco_mesh_compression is not supported by this version");
+  }
+  if (document.accessors.empty()) return badFile(primitive.place() + ": the file has no accessors");
+  FieldReader positionField(attributes, primitive.place());
+  primitive.position = static_cast<std::uint32_t>(positionField.required("POSITION", lastAccessor));
+  if (positionField.error()) {
+    if (!primitive.hasTriangles()) return okStatus();
+    return *positionField.error();
+  }
+  if (primitive.hasTriangles() && json.find("indices")) {
+    primitive.indices = static_cast<std::uint32_t>(fields.required("indices", lastAccessor));
+    if (fields.error()) return *fields.error();
+  }
+  document.primitives.push_back(primitive);
+  return checkEntryCount("primitives", document.primitives.size(), kMostPrimitives);
+}
+
+Status readMeshes(const GltfSections& sections, GltfDocument& document) {
+  Status status = okStatus();
+  sections.meshes.forEachElement([&](JsonValue mesh) {
+    std::uint32_t index = 0;
+    mesh.find("primitives").forEachElement([&](JsonValue json) {
+      if (!status) return;
+      GltfPrimitive primitive;
+      primitive.mesh = static_cast<std::uint32_t>(document.meshCount);
+      primitive.index = index++;
+      status = readPrimitive(json, primitive, document);
+    });
+    document.primitiveCount += index;
+    ++document.meshCount;
+  });
+  for (const GltfPrimitive& primitive : document.primitives) {
+    if (!primitive.hasTriangles()) continue;
+    document.accessors[primitive.position].needed = true;
+    if (primitive.indices != kNone) document.accessors[primitive.indices].needed = true;
+  }
+  return status;
+}
+
+std::uint32_t componentsOf(std::string_view type) {
+  constexpr struct { std::string_view name; std::uint32_t components; } kTypes[] = {
+      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+  for (const auto& entry : kTypes) {
+    if (type == entry.name) return entry.components;
+  }
+  return 0;
+}
+
+FileSpan spanOf(JsonValue value, const char* jsonText, std::size_t jsonBegin) {
+  if (!value) return {};
+  const std::size_t begin = jsonBegin + static_cast<std::size_t>(value.text().data() - jsonText);
+  return {begin, begin + value.text().size()};
+}
+
+Status readAccessors(const GltfSections& sections, GltfDocument& document) {
+  std::size_t index = 0;
+  Status status = okStatus();
+  sections.accessors.forEachElement([&](JsonValue json) {
+    GltfAccessor& accessor = document.accessors[index];
+    FieldReader fields(json, "accessor " + number(index));
+    ++index;
+    accessor.sparse = json.find("sparse").isObject();
+    accessor.min = spanOf(json.find("min"), sections.text.data(), sections.textBegin);
+    accessor.max = spanOf(json.find("max"), sections.text.data(), sections.textBegin);
+    accessor.componentType = static_cast<std::uint32_t>(fields.required("componentType", 0xffff));
+    accessor.count = fields.required("count", kLargestSize);
+    accessor.byteOffset = fields.optional("byteOffset", 0, kLargestSize);
+    const std::string type = json.find("type").asString();
+    accessor.components = componentsOf(type);
+    if (accessor.components == 0) fields.fail("has the unknown type " + quoted(type));
+    if (accessor.componentType < 5120 || accessor.componentType > 5126 || accessor.componentType == 5124) {
+      fields.fail("has the unknown componentType " + number(accessor.componentType));
+    }
+    if (json.find("bufferView")) {
+      const std::uint64_t view = fields.required("bufferView", kLargestSize);
+      if (view >= document.views.size()) {
+        fields.fail("refers to bufferView " + number(view) + " of " + number(document.views.size()));
+      }
+      if (!fields.error()) accessor.view = static_cast<std::uint32_t>(view);
+    }
+    if (fields.error() && accessor.needed && status) status = *fields.error();
+    if (accessor.needed && accessor.view != kNone) document.views[accessor.view].needed = true;
+  });
+  return status;
+}
+
+Status readViews(const GltfSections& sections, GltfDocument& document) {
+  std::size_t index = 0;
+  Status status = okStatus();
+  sections.bufferViews.forEachElement([&](JsonValue json) {
+    GltfView& view = document.views[index];
+    FieldReader fields(json, "bufferView " + number(index));
+    ++index;
+    const std::uint64_t buffer = fields.required("buffer", kLargestSize);
+    view.byteOffset = fields.optional("byteOffset", 0, kLargestSize);
+    view.byteLength = fields.required("byteLength", kLargestSize);
+    view.byteStride = static_cast<std::uint32_t>(fields.optional("byteStride", 0, kLargestSize));
+    if (view.byteStride > 252 || view.byteStride % 4 != 0) {
+      fields.fail("has the byteStride " + number(view.byteStride) + ", expected a multiple of 4 up to 252");
+    }
+    if (buffer >= document.buffers.size()) {
+      fields.fail("refers to buffer " + number(buffer) + " of " + number(document.buffers.size()));
+    } else if (const std::uint64_t length = document.buffers[static_cast<std::size_t>(buffer)].byteLength;
+               view.byteOffset > length || view.byteLength > length - view.byteOffset) {
+      fields.fail("with byteOffset " + number(view.byteOffset) + " and byteLength " + number(view.byteLength) +
+                  " exceeds buffer " + number(buffer) + " (" + number(length) + " bytes)");
+    }
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+      if (json.find("extensions").find(name)) view.compression = name;
+    }
+    if (!fields.error()) view.buffer = static_cast<std::uint32_t>(buffer);
+    // A compressed view is refused by its extension's name later; its buffer may well be a placeholder.
+    if (fields.error() && view.needed && view.compression.empty() && status) status = *fields.error();
+  });
+  return status;
+}
+
+Status readNodes(const GltfSections& sections, GltfDocument& document) {
+  Status status = okStatus();
+  sections.nodes.forEachElement([&](JsonValue json) {
+    const auto node = static_cast<std::uint32_t>(document.nodeCount++);
+    const JsonValue mesh = json.find("mesh");
+    if (!mesh || !status) return;
+    FieldReader fields(json, "node " + number(node));
+    const std::uint64_t index = fields.required("mesh", kLargestSize);
+    if (index >= document.meshCount) {
+      fields.fail("refers to mesh " + number(index) + " of " + number(document.meshCount));
+    }
+    if (fields.error()) {
+      status = *fields.error();
+      return;
+    }
+    document.nodes.push_back(GltfNode{node, static_cast<std::uint32_t>(index), json.find("name").asString()});
+    status = checkEntryCount("nodes with a mesh", document.nodes.size());
+  });
+  return status;
+}
+
+void readBuffers(const GltfSections& sections, GltfDocument& document) {
+  std::size_t index = 0;
+  sections.buffers.forEachElement([&](JsonValue json) {
+    GltfBuffer& buffer = document.buffers[index];
+    FieldReader fields(json, "buffer " + number(index));
+    ++index;
+    buffer.byteLength = fields.required("byteLength", kLargestSize);
+    const JsonValue uri = json.find("uri");
+    if (!uri.isString()) return;
+    const FileSpan span = spanOf(uri, sections.text.data(), sections.textBegin);
+    buffer.hasUri = true;
+    buffer.uri = {span.begin + 1, span.end - 1};
+  });
+}
+
+/// What this version can do with the accessors that triangles need, and whether they stay inside their views.
+Status checkElements(const GltfDocument& document, std::uint32_t index, const std::string& what) {
+  const GltfAccessor& accessor = document.accessors[index];
+  const GltfView& view = document.views[accessor.view];
+  const std::string place = "accessor " + number(index);
+  if (!view.compression.empty()) {
+    return unsupportedFile(what + " (" + place + "): " + view.compression + " is not supported by this version");
+  }
+  if (accessor.count == 0) return badFile(place + ": count is 0");
+  const std::uint64_t elementBytes = accessor.elementBytes();
+  const std::uint64_t stride = view.byteStride == 0 ? elementBytes : view.byteStride;
+  if (stride < elementBytes) {
+    return badFile(place + ": elements of " + number(elementBytes) + " bytes overlap at the byteStride " + number(stride) +
+                   " of bufferView " + number(accessor.view));
+  }
+  const bool fits = accessor.byteOffset <= view.byteLength && elementBytes <= view.byteLength - accessor.byteOffset &&
+                    accessor.count - 1 <= (view.byteLength - accessor.byteOffset - elementBytes) / stride;
+  if (fits) return okStatus();
+  return badFile(place + ": byteOffset " + number(accessor.byteOffset) + " with " + number(accessor.count) +
+                 " elements exceeds bufferView " + number(accessor.view) + " (" + number(view.byteLength) + " bytes)");
+}
+
+Status checkTriangles(const GltfDocument& document, const GltfPrimitive& primitive) {
+  const std::string what = primitive.place() + " POSITION";
+  const GltfAccessor& position = document.accessors[primitive.position];
+  const std::string place = " (accessor " + number(primitive.position) + ")";
+  if (position.sparse) return unsupportedFile(what + place + ": sparse accessors are not supported by this version");
+  if (position.components == 3 && position.componentType < 5124) {
+    return unsupportedFile(what + place + ": componentType " + number(position.componentType) +
+                           " (KHR_mesh_quantization) is not supported by this version");
+  }
+  if (position.components != 3 || position.componentType != kGltfFloat) {
+    return badFile(what + place + ": is not a VEC3 of floats");
+  }
+  if (position.view == kNone) return unsupportedFile(what + place + ": accessors without bufferView are not supported");
+  if (Status status = checkElements(document, primitive.position, what); !status) return status;
+
+  if (primitive.indices == kNone) return okStatus();
+  const GltfAccessor& indices = document.accessors[primitive.indices];
+  const std::string indicesPlace = primitive.place() + " indices (accessor " + number(primitive.indices) + ")";
+  const bool unsignedType = indices.componentType == 5121 || indices.componentType == 5123 || indices.componentType == 5125;
+  if (indices.components != 1 || !unsignedType) return badFile(indicesPlace + ": is not a SCALAR of unsigned integers");
+  if (indices.sparse) return unsupportedFile(indicesPlace + ": sparse accessors are not supported by this version");
+  if (indices.view == kNone) return unsupportedFile(indicesPlace + ": accessors without bufferView are not supported");
+  const std::uint32_t stride = document.views[indices.view].byteStride;
+  if (stride != 0 && stride != indices.elementBytes()) {
+    return unsupportedFile(indicesPlace + ": indices with a byteStride are not supported");
+  }
+  return checkElements(document, primitive.indices, primitive.place() + " indices");
+}
+
+}  // namespace
+
+std::uint32_t GltfAccessor::elementBytes() const {
+  const std::uint32_t componentBytes = componentType <= 5121 ? 1 : componentType <= 5123 ? 2 : 4;
+  return components * componentBytes;
+}
+
+void GltfDocument::warn(std::string text) {
+  constexpr std::size_t kMostWarnings = 100;
+  if (warnings.size() < kMostWarnings) warnings.push_back(std::move(text));
+  if (warnings.size() == kMostWarnings) warnings.back() = "more warnings of this kind were left out";
+}
+
+std::string GltfPrimitive::place() const { return "mesh " + number(mesh) + " primitive " + number(index); }
+
+const char* primitiveModeName(std::uint32_t mode) {
+  constexpr const char* kNames[] = {"POINTS",    "LINES",          "LINE_LOOP",   "LINE_STRIP",
+                                    "TRIANGLES", "TRIANGLE_STRIP", "TRIANGLE_FAN"};
+  return mode < 7 ? kNames[mode] : "primitives of an unknown mode";
+}
+
+Result<GltfDocument> readGltfDocument(std::string_view json, std::size_t jsonBegin) {
+  const Result<JsonValue> root = parseJson(json);
+  if (!root) return root.error();
+  if (!root->isObject()) return badFile("glTF: the JSON text is not an object");
+  const GltfSections sections = findSections(*root, json, jsonBegin);
+
+  GltfDocument document;
+  document.version = sections.asset.find("version").asString();
+  if (document.version.empty()) return badFile("glTF: asset.version is missing");
+  if (document.version.substr(0, 2) != "2.") return unsupportedFile("glTF version " + quoted(document.version));
+  sections.extensionsUsed.forEachElement([&](JsonValue name) { document.extensionsUsed.push_back(name.asString()); });
+
+  const struct { const char* name; JsonValue array; } arrays[] = {{"buffers", sections.buffers},
+                                                                  {"bufferViews", sections.bufferViews},
+                                                                  {"accessors", sections.accessors}};
+  std::size_t counts[3];
+  for (int i = 0; i < 3; ++i) {
+    counts[i] = arrays[i].array.elementCount();
+    if (Status status = checkEntryCount(arrays[i].name, counts[i]); !status) return status.error();
+  }
+  document.buffers.resize(counts[0]);
+  document.views.resize(counts[1]);
+  document.accessors.resize(counts[2]);
+
+  // The order gives clear messages: what a primitive asks for is refused before what its accessors lack.
+  readBuffers(sections, document);
+  if (Status status = readMeshes(sections, document); !status) return status.error();
+  if (Status status = readNodes(sections, document); !status) return status.error();
+  if (Status status = readAccessors(sections, document); !status) return status.error();
+  if (Status status = readViews(sections, document); !status) return status.error();
+  if (Status status = loadThroughTinygltf(document); !status) return status.error();
+  for (const GltfPrimitive& primitive : document.primitives) {
+    if (!primitive.hasTriangles()) continue;
+    if (Status status = checkTriangles(document, primitive); !status) return status.error();
+  }
+  markOtherUses(sections, document);
+  return document;
+}
+
+}  // namespace quadmark::io

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The parts of a glTF document that positions depend on: buffers, views, accessors, triangle primitives, nodes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bytes.h"
+#include "json_text.h"
+
+namespace quadmark::io {
+
+inline constexpr std::uint32_t kNone = 0xffffffff;
+inline constexpr std::uint32_t kGltfFloat = 5126;  ///< componentType
+
+/// A range of the file's bytes.
+struct FileSpan {
+  std::size_t begin = 0, end = 0;
+  [[nodiscard]] bool empty() const { return begin == end; }
+};
+
+struct GltfBuffer {
+  std::uint64_t byteLength = 0;
+  bool hasUri = false;  ///< without: the GLB's BIN chunk if it is buffer 0, else no data
+  FileSpan uri;         ///< as spelled between the quotes
+};
+
+struct GltfView {
+  std::uint32_t buffer = kNone;  ///< kNone also for a view that is broken but that no position needs
+  std::uint64_t byteOffset = 0, byteLength = 0;
+  std::uint32_t byteStride = 0;  ///< 0: tightly packed
+  std::string compression;       ///< name of the extension that compresses it, or empty
+  bool needed = false;           ///< by triangles: then it is flawless
+};
+
+struct GltfAccessor {
+  std::uint32_t view = kNone;
+  std::uint64_t byteOffset = 0, count = 0;
+  std::uint32_t componentType = 0, components = 0;
+  bool sparse = false;
+  bool needed = false;         ///< by triangles (positions or indices): then it is flawless
+  bool usedOtherwise = false;  ///< by anything but POSITION of a primitive
+  FileSpan min, max;           ///< the arrays' text
+
+  [[nodiscard]] std::uint32_t elementBytes() const;
+};
+
+struct GltfPrimitive {
+  std::uint32_t mesh = 0, index = 0;  ///< "mesh 2 primitive 0"
+  std::uint32_t position = kNone, indices = kNone;
+  std::uint32_t mode = 4;
+  bool draco = false;
+
+  [[nodiscard]] bool hasTriangles() const { return mode >= 4 && mode <= 6; }
+  [[nodiscard]] std::string place() const;
+};
+
+struct GltfNode {
+  std::uint32_t node = 0, mesh = 0;
+  std::string name;
+};
+
+struct GltfDocument {
+  std::string version;
+  std::vector<GltfBuffer> buffers;
+  std::vector<GltfView> views;
+  std::vector<GltfAccessor> accessors;
+  std::vector<GltfPrimitive> primitives;  ///< with a POSITION, in file order
+  std::vector<GltfNode> nodes;            ///< with a mesh
+  std::vector<std::uint32_t> imageViews;  ///< buffer views that hold images
+  std::uint64_t meshCount = 0, nodeCount = 0, primitiveCount = 0;
+  std::vector<std::string> extensionsUsed;
+  std::vector<std::string> warnings;
+
+  /// Adds a warning, up to a limit that a hostile file cannot exceed.
+  void warn(std::string text);
+};
+
+/// A mode's name for messages.
+const char* primitiveModeName(std::uint32_t mode);
+
+/// Reads the document. What positions do not need may be broken; what they need is checked, in 64 bit:
+/// types, ranges, references, views inside buffers, accessors inside views, and that this version can handle it.
+/// @param jsonBegin  where the JSON text begins in the file, so that spans are the file's.
+/// Fails with badFile, unsupportedFile or tooLarge, naming the place.
+Result<GltfDocument> readGltfDocument(std::string_view json, std::size_t jsonBegin);
+
+}  // namespace quadmark::io

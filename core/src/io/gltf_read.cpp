@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "face_collector.h"
+#include "gltf_model.h"
+
+namespace quadmark {
+
+bool isGltf(std::span<const std::uint8_t> file) {
+  std::string_view text = io::asText(file);
+  if (text.substr(0, 4) == "glTF") return true;
+  if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != text.npos && text[first] == '{';
+}
+
+Result<std::unique_ptr<Model>> readGltf(std::span<const std::uint8_t> file, const Resources& resources) {
+  auto model = std::make_unique<io::GltfModel>();
+  if (Status status = model->read(file, resources); !status) return status.error();
+  return std::unique_ptr<Model>(std::move(model));
+}
+
+namespace io {
+namespace {
+
+/// The corners of a primitive's vertex stream, one index after the other.
+template <class T>
+struct IndexStream {
+  const std::uint8_t* bytes;
+  [[nodiscard]] std::uint32_t operator()(std::uint64_t i) const { return load<T>(bytes + i * sizeof(T)); }
+};
+struct CountingStream {
+  [[nodiscard]] std::uint32_t operator()(std::uint64_t i) const { return static_cast<std::uint32_t>(i); }
+};
+
+/// A primitive's faces as they are needed to be read once.
+struct FaceSource {
+  const GltfPrimitive* primitive;
+  const PositionWindow* window;
+  const std::uint8_t* indices = nullptr;  // null: not indexed
+  std::uint32_t componentType = 0;
+  std::uint64_t count = 0;                // of the vertex stream
+
+  [[nodiscard]] std::uint64_t mostCorners() const {
+    return primitive->mode == 4 ? count / 3 * 3 : count < 3 ? 0 : 3 * (count - 2);
+  }
+};
+
+template <class Stream>
+Status appendFaces(const FaceSource& source, const Stream& stream, Mesh& mesh) {
+  const std::uint64_t vertexCount = source.window->count;
+  const auto base = static_cast<std::uint32_t>(source.window->firstVertex);
+  const std::uint32_t mode = source.primitive->mode;
+  const std::uint64_t used = mode == 4 ? source.count / 3 * 3 : source.count;
+  for (std::uint64_t i = 0; i < source.count; ++i) {
+    if (stream(i) < vertexCount) continue;
+    return badFile(source.primitive->place() + ": index " + std::to_string(stream(i)) + " at position " +
+                   std::to_string(i) + " exceeds accessor " + std::to_string(source.window->accessor) + " (" +
+                   std::to_string(vertexCount) + " vertices)");
+  }
+  if (mode == 4) {
+    const std::size_t begin = mesh.faceVertices.size();
+    mesh.faceVertices.resize(begin + static_cast<std::size_t>(used));
+    std::uint32_t* corners = mesh.faceVertices.data() + begin;
+    for (std::uint64_t i = 0; i < used; ++i) corners[i] = base + stream(i);
+    return okStatus();
+  }
+  FaceCollector faces(mesh);
+  if (mode == 5) {
+    for (std::uint64_t i = 0; i < used; ++i) faces.stripVertex(base + stream(i));
+    return okStatus();
+  }
+  for (std::uint64_t i = 2; i < used; ++i) {
+    const std::uint32_t a = stream(0), b = stream(i - 1), c = stream(i);
+    if (a != b && b != c && a != c) faces.addTriangle(base + a, base + b, base + c);
+  }
+  return okStatus();
+}
+
+Status appendFaces(const FaceSource& source, Mesh& mesh) {
+  if (source.indices == nullptr) return appendFaces(source, CountingStream{}, mesh);
+  switch (source.componentType) {
+    case 5121: return appendFaces(source, IndexStream<std::uint8_t>{source.indices}, mesh);
+    case 5123: return appendFaces(source, IndexStream<std::uint16_t>{source.indices}, mesh);
+    default: return appendFaces(source, IndexStream<std::uint32_t>{source.indices}, mesh);
+  }
+}
+
+/// buffer -> lowest buffer with the same bytes: two buffers may name the same file.
+std::vector<std::uint32_t> findSameBuffers(const std::vector<BufferPlace>& places) {
+  std::vector<std::uint32_t> same(places.size());
+  std::map<std::string, std::uint32_t> byKey;
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    const bool resource = places[i].source == BufferPlace::Source::resource;
+    same[i] = resource ? byKey.emplace(places[i].key, i).first->second : i;
+  }
+  return same;
+}
+
+}  // namespace
+
+Status GltfModel::readPositions(const std::vector<BufferBytes>& buffers) {
+  mesh_.positions.resize(static_cast<std::size_t>(3 * positions_.vertexCount));
+  for (const PositionArray& array : positions_.arrays) {
+    const std::uint8_t* element = buffers[array.buffer].bytes.data() + array.start;
+    double* out = &mesh_.positions[static_cast<std::size_t>(3 * array.firstVertex)];
+    for (std::uint64_t i = 0; i < array.count; ++i, element += array.stride, out += 3) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const float value = load<float>(element + 4 * axis);
+        out[axis] = value;
+        if (std::isfinite(value)) continue;
+        const std::uint64_t vertex = array.firstVertex + i;
+        for (const PositionWindow& window : positions_.windows) {
+          if (vertex < window.firstVertex || vertex - window.firstVertex >= window.count) continue;
+          return badMesh("accessor " + std::to_string(window.accessor) + ": vertex " +
+                         std::to_string(vertex - window.firstVertex) + ", component " + "xyz"[axis] + " is not finite");
+        }
+      }
+    }
+  }
+  return okStatus();
+}
+
+Status GltfModel::readFaces(const GltfDocument& document, const std::vector<BufferBytes>& buffers,
+                            std::uint64_t totalBytes) {
+  std::vector<FaceSource> sources;
+  std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> seen;  // the same faces twice say nothing new
+  std::uint64_t corners = 0;
+  for (const GltfPrimitive& primitive : document.primitives) {
+    if (!primitive.hasTriangles()) continue;
+    if (!seen.emplace(primitive.position, primitive.indices, primitive.mode).second) continue;
+    FaceSource source;
+    source.primitive = &primitive;
+    source.window = &positions_.windows[positions_.windowOf[primitive.position]];
+    source.count = source.window->count;
+    if (primitive.indices != kNone) {
+      const GltfAccessor& accessor = document.accessors[primitive.indices];
+      const GltfView& view = document.views[accessor.view];
+      source.indices = buffers[view.buffer].bytes.data() + view.byteOffset + accessor.byteOffset;
+      source.componentType = accessor.componentType;
+      source.count = accessor.count;
+    }
+    if (primitive.mode == 4 && source.count % 3 != 0) {
+      info_.warnings.push_back(primitive.place() + ": " + std::to_string(source.count) +
+                               " corners are not a multiple of 3; the rest is passed through");
+    }
+    corners += source.mostCorners();
+    sources.push_back(source);
+  }
+  // Accessors may overlap, so a small file could ask for any number of faces. Sane files stay below 3 corners per byte.
+  constexpr std::uint64_t kMostCornersPerByte = 4;
+  if (corners > FaceCollector::kLargestCornerCount || corners / kMostCornersPerByte > totalBytes) {
+    return tooLarge("glTF: primitives reuse the same data for " + std::to_string(corners) + " triangle corners");
+  }
+  mesh_.faceVertices.reserve(static_cast<std::size_t>(corners));
+  for (const FaceSource& source : sources) {
+    if (Status status = appendFaces(source, mesh_); !status) return status;
+  }
+  return okStatus();
+}
+
+void GltfModel::readGroups(const GltfDocument& document) {
+  // Meshes that share an array are one group, whose number follows its lowest mesh.
+  std::vector<std::uint32_t> leader(static_cast<std::size_t>(document.meshCount));
+  for (std::uint32_t i = 0; i < leader.size(); ++i) leader[i] = i;
+  const auto find = [&](std::uint32_t mesh) {
+    while (leader[mesh] != mesh) mesh = leader[mesh] = leader[leader[mesh]];
+    return mesh;
+  };
+  std::vector<std::uint32_t> arrayMesh(positions_.arrays.size(), kNone);
+  std::vector<std::uint32_t> windowMesh(positions_.windows.size(), kNone);
+  for (const GltfPrimitive& primitive : document.primitives) {
+    if (!primitive.hasTriangles()) continue;
+    const std::uint32_t window = positions_.windowOf[primitive.position];
+    windowMesh[window] = std::min(windowMesh[window], primitive.mesh);
+    std::uint32_t& first = arrayMesh[positions_.windows[window].array];
+    if (first == kNone) first = primitive.mesh;
+    const std::uint32_t a = find(first), b = find(primitive.mesh);
+    leader[std::max(a, b)] = std::min(a, b);
+  }
+  vertexMesh_.assign(static_cast<std::size_t>(positions_.vertexCount), kNone);
+  for (std::size_t i = 0; i < positions_.windows.size(); ++i) {
+    const PositionWindow& window = positions_.windows[i];
+    for (std::uint64_t v = window.firstVertex; v < window.firstVertex + window.count; ++v) {
+      vertexMesh_[static_cast<std::size_t>(v)] = std::min(vertexMesh_[static_cast<std::size_t>(v)], windowMesh[i]);
+    }
+  }
+  std::vector<std::uint32_t> groupOf(leader.size(), kNone);
+  std::vector<bool> drawn(leader.size());
+  for (const std::uint32_t mesh : arrayMesh) drawn[find(mesh)] = true;
+  std::uint32_t groups = 0;
+  for (std::uint32_t mesh = 0; mesh < leader.size(); ++mesh) {
+    if (drawn[mesh]) groupOf[mesh] = groups++;
+  }
+  if (groups < 2) return;
+  mesh_.groups.resize(vertexMesh_.size());
+  for (std::size_t v = 0; v < vertexMesh_.size(); ++v) mesh_.groups[v] = groupOf[find(vertexMesh_[v])];
+}
+
+Status GltfModel::read(Bytes file, const Resources& resources) {
+  // 1. The document.
+  Result<GltfContainer> container = openGltf(file);
+  if (!container) return container.error();
+  container_ = std::move(container).value();
+  Result<GltfDocument> read = readGltfDocument(container_.json(file), container_.jsonBegin);
+  if (!read) return read.error();
+  const GltfDocument document = std::move(read).value();
+  fileSize_ = file.size();
+  info_.format = container_.isGlb ? FileFormat::glb : FileFormat::gltf;
+  info_.variant = "glTF " + document.version;
+  info_.meshes = static_cast<std::uint32_t>(document.meshCount);
+  info_.primitives = static_cast<std::uint32_t>(document.primitiveCount);
+  info_.nodes = static_cast<std::uint32_t>(document.nodeCount);
+  info_.extensionsUsed = document.extensionsUsed;
+  info_.warnings = container_.warnings;
+  info_.warnings.insert(info_.warnings.end(), document.warnings.begin(), document.warnings.end());
+  for (const GltfNode& node : document.nodes) nodes_.push_back(NodeRef{node.node, node.name, node.mesh});
+
+  // 2. Buffers and the positions in them.
+  Result<std::vector<BufferPlace>> places = placeBuffers(document, container_, file, resources);
+  if (!places) return places.error();
+  buffers_ = std::move(places).value();
+  Result<PositionArrays> arrays = collectPositionArrays(document, findSameBuffers(buffers_));
+  if (!arrays) return arrays.error();
+  positions_ = std::move(arrays).value();
+  if (positions_.arrays.empty()) return badMesh("glTF: the file has no triangles");
+  if (!positions_.conflict.empty()) info_.warnings.push_back(positions_.conflict + "; marking this file will be refused");
+
+  std::vector<BufferBytes> buffers(buffers_.size());
+  std::uint64_t totalBytes = file.size();
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    if (buffers_[i].source == BufferPlace::Source::absent) continue;
+    Result<BufferBytes> buffer = openBuffer(buffers_[i], i, container_, file, resources);
+    if (!buffer) return buffer.error();
+    buffers[i] = std::move(buffer).value();
+    if (buffers_[i].source == BufferPlace::Source::resource) totalBytes += buffers[i].bytes.size();
+  }
+  std::uint64_t windowed = 0;
+  for (const PositionWindow& window : positions_.windows) windowed += window.count;
+  if (windowed > totalBytes) return tooLarge("glTF: accessors reuse the same positions too often");
+  if (Status status = readPositions(buffers); !status) return status;
+
+  // 3. Faces and groups.
+  if (Status status = readFaces(document, buffers, totalBytes); !status) return status;
+  if (mesh_.faceCount() == 0) return badMesh("glTF: the file has no triangles");
+  readGroups(document);
+  if (boundingDiagonal(mesh_) == 0) return badMesh("glTF: all used vertices are at one point");
+
+  // 4. What patch() will need.
+  for (const PositionWindow& window : positions_.windows) {
+    const GltfAccessor& accessor = document.accessors[window.accessor];
+    if (accessor.min.empty() && accessor.max.empty()) continue;
+    bounds_.push_back(Bounds{accessor.min, accessor.max, window.array, window.firstVertex, window.count});
+  }
+  return okStatus();
+}
+
+}  // namespace io
+}  // namespace quadmark
