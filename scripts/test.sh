@@ -22,13 +22,14 @@ rm -f $logs/*.log
 summary=()
 failed=0
 
-# step NAME FUNCTION: runs it with its output in a log, shows the end of that log when it fails.
+# step NAME FUNCTION: runs it with its output in a log, shows the end of that log when it fails. (Functions chain by &&:
+# bash ignores set -e in a condition.)
 step() {
   local name=$1 action=$2 log started seconds
   log=$logs/$(basename "${action//_/-}" .sh).log
   started=$SECONDS
   printf '== %s ... ' "$name"
-  if (set -e; $action) >"$log" 2>&1; then
+  if $action >"$log" 2>&1; then
     seconds=$((SECONDS - started))
     printf 'ok (%d s)\n' $seconds
     summary+=("ok      $name ($seconds s)")
@@ -49,8 +50,7 @@ skip() {
 }
 
 build() {
-  cmake --preset "$1"
-  cmake --build --preset "$1" --parallel "$(nproc)"
+  cmake --preset "$1" && cmake --build --preset "$1" --parallel "$(nproc)"
 }
 build_native() { build release; }
 build_asan() { build asan; }
@@ -73,8 +73,7 @@ package_tests() {
   javascript "${files[@]}"
 }
 page_tests() {
-  npm run build --workspace web
-  javascript js_tests/page*.test.mjs
+  npm run build --workspace web && javascript js_tests/page*.test.mjs
 }
 
 step "set up" scripts/setup.sh || { echo "Setting up failed: nothing was tested."; exit 1; }
