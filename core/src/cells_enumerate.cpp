@@ -103,9 +103,8 @@ void forEachCoplanarSet(const WeldedMesh& welded, const std::vector<double>& pos
     const double longest = 2 * std::sqrt(radius2), unit = std::max(rounding.relative * magnitude, 1e-8 * longest);
     const double reach = std::min(limit.units * unit, std::max(kExactUnits * unit, limit.relative * longest));
     const double largest = 1.0001 * reach * 4 * radius2;
-    ring.forEach([&](int a, int b, int c, int d, double determinant) {
-      if (!(std::fabs(determinant) <= largest)) return;
-      std::uint32_t ids[4] = {members[a], members[b], members[c], members[d]};
+    ring.forEach(largest, [&](int a, int b, int c, int d, double) {
+      std::uint32_t ids[4] = {ring.vertex(a), ring.vertex(b), ring.vertex(c), ring.vertex(d)};
       Quad quad;
       if (!makeQuad(ids, positions.data(), kMinTriangleReading, quad)) return;
       if (!limit.admits(quad, rounding.unit(quad, positions.data()))) return;

@@ -78,11 +78,11 @@ class Searcher {
   bool naturalCell(Quad& best) {
     bool found = false;
     const double tolerance = 1e-7 * std::sqrt(4 * ring_.radius2()) + kExactUnits * rounding_.relative * magnitude();
-    ring_.forEach([&](int i, int j, int k, int l, double determinant) {
+    ring_.forEach(4 * tolerance * ring_.radius2(), [&](int i, int j, int k, int l, double determinant) {
       // |e x f| of the diagonals is at most twice the largest triangle's normal, so this never rejects too much.
       const double largest = largestNormal2(i, j, k, l);
       if (determinant * determinant > 4 * tolerance * tolerance * largest) return;
-      const std::uint32_t ids[4] = {members_[i], members_[j], members_[k], members_[l]};
+      const std::uint32_t ids[4] = {ring_.vertex(i), ring_.vertex(j), ring_.vertex(k), ring_.vertex(l)};
       Quad quad;
       if (!makeQuad(ids, out_.positions.data(), kMinTriangleWriting, quad)) return;
       if (quad.gap > kExactUnits * rounding_.unit(quad, out_.positions.data())) return;
@@ -99,7 +99,8 @@ class Searcher {
     int moved = -1;
     Point movedTo{};
     bool found = false;
-    ring_.forEach([&](int i, int j, int k, int l, double determinant) {
+    // Twice the area of a triangle in a ball of radius R is at most 2.6 R^2.
+    ring_.forEach(2.6 * lambda_ * ring_.radius2(), [&](int i, int j, int k, int l, double determinant) {
       const double volume2 = determinant * determinant;
       if (volume2 > bestH2 * largestNormal2(i, j, k, l)) return;
       const int index[4] = {i, j, k, l};
@@ -113,7 +114,7 @@ class Searcher {
         if (!project(index, option, target, quad)) continue;
         const double r1 = std::min(quad.ratioAC, quad.ratioBD);
         if (found && h2 == bestH2 && !(r1 < std::min(best.ratioAC, best.ratioBD))) continue;  // ties by smaller r1
-        if (flips(members_[index[option]], target)) continue;
+        if (flips(ring_.vertex(index[option]), target)) continue;
         bestH2 = h2;
         best = quad;
         moved = index[option];
@@ -122,14 +123,14 @@ class Searcher {
       }
     });
     if (!found) return false;
-    double* p = &out_.positions[3 * std::size_t{members_[moved]}];
+    double* p = &out_.positions[3 * std::size_t{ring_.vertex(moved)}];
     for (int k = 0; k < 3; ++k) p[k] = movedTo.v[k];
     return true;
   }
 
   bool project(const int index[4], int option, Point& target, Quad& quad) const {
     const double* p[4];
-    for (int i = 0; i < 4; ++i) p[i] = &out_.positions[3 * std::size_t{members_[index[i]]}];
+    for (int i = 0; i < 4; ++i) p[i] = &out_.positions[3 * std::size_t{ring_.vertex(index[i])}];
     const double* x = p[option];
     const double* q0 = p[option == 0 ? 1 : 0];
     const double* q1 = p[option <= 1 ? 2 : 1];
@@ -142,7 +143,7 @@ class Searcher {
     const double* projected[4] = {p[0], p[1], p[2], p[3]};
     projected[option] = target.v;
     if (!makeQuad(projected, kMinTriangleWriting, quad)) return false;
-    for (std::uint32_t* id : {&quad.a, &quad.b, &quad.c, &quad.d}) *id = members_[index[*id]];
+    for (std::uint32_t* id : {&quad.a, &quad.b, &quad.c, &quad.d}) *id = ring_.vertex(index[*id]);
     return true;
   }
 

@@ -38,7 +38,7 @@ Status Embedder::search() {
 
 std::uint32_t PadCache::operator()(std::uint32_t index, std::uint32_t prefix1, std::uint32_t prefix2) {
   const std::uint64_t label = std::uint64_t{prefix1} << 32 | prefix2;
-  Entry& entry = entries_[((label ^ label >> 29) * 0x9e3779b97f4a7c15u + index) >> 20 & (kEntries - 1)];
+  Entry& entry = entries_[(label * 0x9e3779b97f4a7c15u + index * 0xd6e8feb86659fd93u) >> 44 & (kEntries - 1)];
   if (entry.label != label || entry.index != index)
     entry = {label, index, octalDigits(pieces_[index] ^ pad_(index, prefix1, prefix2), digits_)};
   return entry.octal;

@@ -15,7 +15,7 @@
 namespace quadmark {
 namespace {
 
-constexpr std::size_t kWindow = 64;
+constexpr std::size_t kWindow = 16;
 constexpr std::size_t kScarceRepeats = 8;
 
 std::uint64_t spread(std::uint64_t x) {  // two zero bits between the lower 21 bits

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -14,78 +15,101 @@ namespace quadmark {
 constexpr int choose2(int n) { return n * (n - 1) / 2; }
 constexpr int choose3(int n) { return n * (n - 1) * (n - 2) / 6; }
 
-/// Coordinates of up to kMaxMembersReading points relative to the seed, and the determinants of their triples.
-/// With T(i,j,k) = p_i . (p_j x p_k), six times the volume of (i,j,k,l) is T(jkl) - T(ikl) + T(ijl) - T(ijk): the
-/// C(n,4) sets share C(n,3) products, which is what makes a full enumeration affordable (35 sets from 35 products at
-/// valence 6 instead of 35 times two cross products).
+/// Points relative to the seed (the origin) and the determinants of their triples, T(i,j,k) = p_i . (p_j x p_k).
+/// Six times the volume of a set with the seed in it is such a product itself; that of (i,j,k,l) is
+/// T(jkl) - T(ikl) + T(ijl) - T(ijk). So the 35 sets of a valence-6 neighbourhood cost 20 products and 45 additions
+/// instead of 35 times two cross products, which is what makes a full enumeration affordable.
 class RingSets {
  public:
-  /// Loads the members and computes everything. `seed` gives the origin.
+  /// Loads the members.
+  /// @param members   distinct; may contain the seed.
+  /// @param withAreas  also compute normal2().
   void load(const std::vector<std::uint32_t>& members, std::uint32_t seed, const double* positions, bool withAreas) {
-    count_ = static_cast<int>(members.size());
     const double* origin = positions + 3 * std::size_t{seed};
-    for (int i = 0; i < count_; ++i) {
-      const double* p = positions + 3 * std::size_t{members[i]};
-      x_[i] = p[0] - origin[0], y_[i] = p[1] - origin[1], z_[i] = p[2] - origin[2];
-    }
-    for (int j = 1; j < count_; ++j)
-      for (int i = 0; i < j; ++i) {
-        const int at = pairIndex(i, j);
-        cx_[at] = y_[i] * z_[j] - z_[i] * y_[j];
-        cy_[at] = z_[i] * x_[j] - x_[i] * z_[j];
-        cz_[at] = x_[i] * y_[j] - y_[i] * x_[j];
+    seedIsMember_ = false;
+    count_ = 0;
+    radius2_ = 0;
+    for (std::uint32_t vertex : members) {
+      if (vertex == seed) {
+        seedIsMember_ = true;
+        continue;
       }
-    for (int k = 2; k < count_; ++k)
-      for (int j = 1; j < k; ++j)
-        for (int i = 0; i < j; ++i) {
-          const int ij = pairIndex(i, j);
-          triple_[tripleIndex(i, j, k)] = cx_[ij] * x_[k] + cy_[ij] * y_[k] + cz_[ij] * z_[k];
-        }
-    if (!withAreas) return;
-    for (int k = 2; k < count_; ++k)
-      for (int j = 1; j < k; ++j)
-        for (int i = 0; i < j; ++i) {
-          const int ij = pairIndex(i, j), ik = pairIndex(i, k), jk = pairIndex(j, k);
-          const double nx = cx_[ij] + cx_[jk] - cx_[ik], ny = cy_[ij] + cy_[jk] - cy_[ik],
-                       nz = cz_[ij] + cz_[jk] - cz_[ik];
-          normal2_[tripleIndex(i, j, k)] = nx * nx + ny * ny + nz * nz;
-        }
+      const double* p = positions + 3 * std::size_t{vertex};
+      const double x = p[0] - origin[0], y = p[1] - origin[1], z = p[2] - origin[2];
+      vertex_[count_] = vertex;
+      x_[count_] = x, y_[count_] = y, z_[count_] = z;
+      ++count_;
+      radius2_ = std::max(radius2_, x * x + y * y + z * z);
+    }
+    vertex_[kSeed] = seed;
+    for (int j = 1, ij = 0; j < count_; ++j)
+      for (int i = 0; i < j; ++i, ++ij) {
+        cx_[ij] = y_[i] * z_[j] - z_[i] * y_[j];
+        cy_[ij] = z_[i] * x_[j] - x_[i] * z_[j];
+        cz_[ij] = x_[i] * y_[j] - y_[i] * x_[j];
+      }
+    for (int k = 2, ijk = 0; k < count_; ++k) {
+      const double x = x_[k], y = y_[k], z = z_[k];
+      for (int ij = 0; ij < choose2(k); ++ij, ++ijk) triple_[ijk] = cx_[ij] * x + cy_[ij] * y + cz_[ij] * z;
+    }
+    if (withAreas) computeAreas();
   }
 
-  [[nodiscard]] int count() const { return count_; }
+  /// Index of the seed in visits; members count from 0.
+  static constexpr int kSeed = static_cast<int>(std::max(kMaxMembersReading, kMaxMembersWriting));
+
+  [[nodiscard]] std::uint32_t vertex(int index) const { return vertex_[index]; }
 
   /// Largest squared distance of a member from the seed.
-  [[nodiscard]] double radius2() const {
-    double best = 0;
-    for (int i = 0; i < count_; ++i) best = std::max(best, x_[i] * x_[i] + y_[i] * y_[i] + z_[i] * z_[i]);
-    return best;
+  [[nodiscard]] double radius2() const { return radius2_; }
+
+  /// 4 area^2 of a triangle, i < j < k, where k may be kSeed. Needs load(..., withAreas = true).
+  [[nodiscard]] double normal2(int i, int j, int k) const {
+    return k == kSeed ? seedNormal2_[choose2(j) + i] : normal2_[choose3(k) + choose2(j) + i];
   }
 
-  /// 4 area^2 of the triangle of three members, i < j < k. Needs load(..., withAreas = true).
-  [[nodiscard]] double normal2(int i, int j, int k) const { return normal2_[tripleIndex(i, j, k)]; }
-
-  /// Calls visit(i, j, k, l, determinant) for every set i < j < k < l.
+  /// Calls visit(i, j, k, l, determinant) for every set i < j < k < l with |determinant| <= limit; l may be kSeed.
   template <class Visit>
-  void forEach(const Visit& visit) const {
+  void forEach(double limit, const Visit& visit) const {
+    if (seedIsMember_)
+      for (int k = 2, ijk = 0; k < count_; ++k)
+        for (int j = 1; j < k; ++j)
+          for (int i = 0; i < j; ++i, ++ijk)
+            if (std::fabs(triple_[ijk]) <= limit) visit(i, j, k, kSeed, triple_[ijk]);
     for (int l = 3; l < count_; ++l)
       for (int k = 2; k < l; ++k)
         for (int j = 1; j < k; ++j) {
-          const double jkl = triple_[tripleIndex(j, k, l)];
-          const int kl = tripleIndex(0, k, l), jl = tripleIndex(0, j, l), jk = tripleIndex(0, j, k);
-          for (int i = 0; i < j; ++i)
-            visit(i, j, k, l, jkl - triple_[kl + i] + triple_[jl + i] - triple_[jk + i]);
+          const double jkl = triple_[choose3(l) + choose2(k) + j];
+          const double *ikl = &triple_[choose3(l) + choose2(k)], *ijl = &triple_[choose3(l) + choose2(j)],
+                       *ijk = &triple_[choose3(k) + choose2(j)];
+          for (int i = 0; i < j; ++i) {
+            const double determinant = jkl - ikl[i] + ijl[i] - ijk[i];
+            if (std::fabs(determinant) <= limit) visit(i, j, k, l, determinant);
+          }
         }
   }
 
  private:
-  static constexpr int kMax = static_cast<int>(std::max(kMaxMembersReading, kMaxMembersWriting));
-  static constexpr int pairIndex(int i, int j) { return choose2(j) + i; }
-  static constexpr int tripleIndex(int i, int j, int k) { return choose3(k) + choose2(j) + i; }
+  void computeAreas() {
+    for (int ij = 0; ij < choose2(count_); ++ij)
+      seedNormal2_[ij] = cx_[ij] * cx_[ij] + cy_[ij] * cy_[ij] + cz_[ij] * cz_[ij];
+    for (int k = 2, ijk = 0; k < count_; ++k)
+      for (int j = 1, ij = 0; j < k; ++j)
+        for (int i = 0; i < j; ++i, ++ij, ++ijk) {
+          const int ik = choose2(k) + i, jk = choose2(k) + j;
+          const double nx = cx_[ij] + cx_[jk] - cx_[ik], ny = cy_[ij] + cy_[jk] - cy_[ik],
+                       nz = cz_[ij] + cz_[jk] - cz_[ik];
+          normal2_[ijk] = nx * nx + ny * ny + nz * nz;
+        }
+  }
 
   int count_ = 0;
-  std::array<double, kMax> x_, y_, z_;
-  std::array<double, choose2(kMax)> cx_, cy_, cz_;
-  std::array<double, choose3(kMax)> triple_, normal2_;
+  bool seedIsMember_ = false;
+  double radius2_ = 0;
+  std::array<std::uint32_t, kSeed + 1> vertex_;
+  std::array<double, kSeed> x_, y_, z_;
+  std::array<double, choose2(kSeed)> cx_, cy_, cz_, seedNormal2_;
+  std::array<double, choose3(kSeed)> triple_, normal2_;
 };
 
 /// Keeps the `limit` members nearest to the seed (D8), ties by position. Members keep no particular order.

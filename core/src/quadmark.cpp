@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// The calls on bytes: read the file, run the scheme on its mesh, patch the file, report.
+#include "quadmark/quadmark.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "quadmark/adjacency.h"
+#include "quadmark/embed.h"
+#include "quadmark/extract.h"
+#include "quadmark/metrics.h"
+#include "report.h"
+
+namespace quadmark {
+namespace {
+
+bool tell(const Progress& progress, const char* stage, double done) { return !progress || progress(stage, done); }
+
+Error cancelled() { return {ErrorCode::aborted, "cancelled by the caller"}; }
+
+// Cells per glTF node, by the mesh that the vertex of each cell belongs to. Nodes that share a mesh share its cells.
+template <class Cells, class VertexOf>
+std::vector<NodeCells> cellsPerNode(const Model& model, const WeldedMesh& welded, const Cells& cells,
+                                    const VertexOf& vertexOf) {
+  std::vector<NodeCells> out;
+  if (model.nodes().empty()) return out;
+  std::vector<std::uint32_t> meshOfWelded(welded.vertexCount(), 0);
+  std::uint32_t meshes = 0;
+  for (std::size_t v = 0; v < welded.weldedOf.size(); ++v) {
+    meshes = std::max(meshes, model.vertexMesh()[v] + 1);
+    if (welded.weldedOf[v] != kNoVertex) meshOfWelded[welded.weldedOf[v]] = model.vertexMesh()[v];
+  }
+  std::vector<std::uint32_t> count(meshes, 0);
+  for (const auto& cell : cells) ++count[meshOfWelded[vertexOf(cell)]];
+  for (const Model::NodeRef& node : model.nodes())
+    out.push_back({node.node, node.name, node.mesh, node.mesh < meshes ? count[node.mesh] : 0});
+  return out;
+}
+
+std::uint32_t componentCount(const WeldedMesh& welded) {
+  std::vector<std::uint8_t> seen(welded.vertexCount(), 0);
+  std::vector<std::uint32_t> stack;
+  std::uint32_t components = 0;
+  for (std::uint32_t start = 0; start < welded.vertexCount(); ++start) {
+    if (seen[start] != 0) continue;
+    ++components;
+    seen[start] = 1;
+    stack.assign(1, start);
+    while (!stack.empty()) {
+      const std::uint32_t v = stack.back();
+      stack.pop_back();
+      for (std::uint32_t w : welded.neighboursOf(v))
+        if (seen[w] == 0) seen[w] = 1, stack.push_back(w);
+    }
+  }
+  return components;
+}
+
+Result<std::vector<std::uint8_t>> payloadBits(const EmbedRequest& request) {
+  const PaperParams& params = request.key.params;
+  if (request.image.has_value() == request.id.has_value())
+    return Error{ErrorCode::badOption, "give either an image or an id to embed"};
+  if (request.id) {
+    if (params.payload != PayloadType::id) return Error{ErrorCode::badKey, "the key is for an image, not for an id"};
+    std::vector<std::uint8_t> bits(64);
+    for (int i = 0; i < 64; ++i) bits[i] = static_cast<std::uint8_t>(*request.id >> (63 - i) & 1);
+    return bits;
+  }
+  if (params.payload != PayloadType::image) return Error{ErrorCode::badKey, "the key is for an id, not for an image"};
+  const BitImage& image = *request.image;
+  if (image.width != params.width || image.height != params.height ||
+      image.bits.size() != std::size_t{image.width} * image.height)
+    return Error{ErrorCode::badImage, "the image is " + std::to_string(image.width) + " x " +
+                                          std::to_string(image.height) + ", the key is for " +
+                                          std::to_string(params.width) + " x " + std::to_string(params.height)};
+  return image.bits;
+}
+
+std::vector<std::string> embedWarnings(const Model& model, const MarkedMesh& marked) {
+  std::vector<std::string> warnings = model.info().warnings;
+  const Guarantees& g = marked.guarantees;
+  if (!g.unattacked) warnings.push_back("the mark does not read back exactly from the output; choose more digits or a smaller payload");
+  if (!g.reordered) warnings.push_back("the mark does not read back exactly after reordering the vertices");
+  if (!g.affine) warnings.push_back("the mark does not read back exactly after an affine map");
+  if (marked.repeats < 3) warnings.push_back("each bit is stored fewer than 3 times: little survives a crop");
+  return warnings;
+}
+
+}  // namespace
+
+const char* version() { return QUADMARK_VERSION; }
+
+Result<EmbedResponse> embed(std::span<const std::uint8_t> file, const Resources& resources,
+                            const EmbedRequest& request) {
+  if (Status s = validate(request.key.params); !s) return s.error();
+  auto bits = payloadBits(request);
+  if (!bits) return bits.error();
+  if (request.key.params.scrambleOrder)
+    return Error{ErrorCode::unsupportedFile, "scrambleOrder: rewriting a file's vertex order is not available for this format"};
+  if (!tell(request.progress, "read", 0)) return cancelled();
+  auto model = readModel(file, resources);
+  if (!model) return model.error();
+  const Mesh& mesh = (*model)->mesh();
+
+  auto marked = embedMesh(mesh, *bits, request.key, request.progress);
+  if (!marked) return marked.error();
+  if (!tell(request.progress, "report", 0.95)) return cancelled();
+
+  EmbedResponse response;
+  auto patched = (*model)->patch(file, resources, marked->positions);
+  if (!patched) return patched.error();
+  response.file = std::move(*patched);
+  const std::vector<std::string> warnings = embedWarnings(**model, *marked);
+  // The positions become a mesh again by exchange: two copies are all that is ever held.
+  Mesh after = mesh;
+  after.positions = std::move(marked->positions);
+  const Distortion measured = distortion(mesh, after);
+  response.reportJson = formatReport(EmbedReport{request.key, *marked, measured, response.file.bytesChanged, warnings});
+  tell(request.progress, "report", 1);
+  return response;
+}
+
+Result<ExtractResponse> extract(std::span<const std::uint8_t> file, const Resources& resources,
+                                const ExtractRequest& request) {
+  const PaperParams& params = request.key.params;
+  if (Status s = validate(params); !s) return s.error();
+  if (request.reference && (request.reference->width != params.width || request.reference->height != params.height))
+    return Error{ErrorCode::badImage, "the reference is " + std::to_string(request.reference->width) + " x " +
+                                          std::to_string(request.reference->height) + ", the key is for " +
+                                          std::to_string(params.width) + " x " + std::to_string(params.height)};
+  if (!tell(request.progress, "read", 0)) return cancelled();
+  auto model = readModel(file, resources);
+  if (!model) return model.error();
+  if (!tell(request.progress, "search", 0.3)) return cancelled();
+  const Precision precision = (*model)->mesh().precision;
+  const WeldedMesh welded = weld((*model)->mesh());
+  (*model)->mesh() = Mesh{};  // only the welded one is needed from here on
+
+  ExtractOptions options;
+  if (request.reference) options.reference = request.reference->bits;
+  options.keepReadings = !(*model)->nodes().empty();
+  const Extraction e = extractMesh(welded, welded.positions, roundingOf(precision), request.key, options);
+  if (!tell(request.progress, "report", 0.95)) return cancelled();
+
+  ExtractResponse response;
+  response.verdict = verdictName(e.verdict);
+  response.falsePositive = e.falsePositive;
+  response.image = {params.width, params.height, e.bits};
+  response.erased = e.erased;
+  response.confidence = e.confidence;
+  const bool complete = std::none_of(e.erased.begin(), e.erased.end(), [](std::uint8_t x) { return x != 0; });
+  if (params.payload == PayloadType::id && e.verdict == Verdict::match && complete) {
+    std::uint64_t id = 0;
+    for (std::uint8_t bit : e.bits) id = id << 1 | bit;
+    response.id = id;
+  }
+  std::optional<double> ber;
+  if (request.reference) ber = bitErrorRate(request.reference->bits, e.bits, e.erased);
+  std::vector<CellReading> voting;
+  for (const CellReading& r : e.readings)
+    if (r.weight > 0) voting.push_back(r);
+  response.reportJson = formatReport(ExtractReport{
+      request.key, e, response.id, ber,
+      cellsPerNode(**model, welded, voting, [](const CellReading& r) { return r.vertices[0]; }),
+      (*model)->info().warnings});
+  tell(request.progress, "report", 1);
+  return response;
+}
+
+Result<std::string> inspect(std::span<const std::uint8_t> file, const Resources& resources) {
+  auto model = readModel(file, resources);
+  if (!model) return model.error();
+  const Mesh& mesh = (*model)->mesh();
+  const WeldedMesh welded = weld(mesh);
+  const double diagonal = boundingDiagonal(mesh);
+  SearchResult found;
+  if (diagonal > 0) found = searchCells(mesh, welded, PaperParams{}, diagonal, roundingOf(mesh.precision));
+  return formatReport(InspectReport{(*model)->info(), mesh, welded.vertexCount(), componentCount(welded), diagonal,
+                                    static_cast<std::uint32_t>(found.cells.size()), found.naturalCells,
+                                    cellsPerNode(**model, welded, found.cells, [](const Quad& q) { return q.a; })});
+}
+
+Result<Key> makeKey(const KeyRequest& request) {
+  Key key;
+  key.secret = request.secret;
+  key.owner = request.owner;
+  key.params = request.params;
+  if (request.chooseDigits) {
+    if (key.params.bitCount() == 0) return Error{ErrorCode::badOption, "the key needs the size of the image: width and height"};
+    auto digits = chooseDigits(key.params.bitCount(), request.params.L1);
+    if (!digits) return digits.error();
+    key.params.L1 = digits->L1, key.params.H1 = digits->H1;
+    key.params.L2 = digits->L2, key.params.H2 = digits->H2;
+  }
+  if (Status s = validate(key.params); !s) return s.error();
+  return key;
+}
+
+}  // namespace quadmark
