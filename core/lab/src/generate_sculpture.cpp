@@ -33,10 +33,10 @@ class Knot {
     return core + radius(point, core, core + kTube * outwards) * outwards;
   }
 
-  static constexpr double kLength = 29, kCircumference = 4.4;
+  static constexpr double kLength = 30, kCircumference = 5;
 
  private:
-  static constexpr double kMajor = 2.05, kMinor = 1.0, kTube = 0.55;
+  static constexpr double kMajor = 2.15, kMinor = 1.0, kTube = 0.65;
 
   /// 1 where a relief of this wavelength shows in the mesh, 0 where the mesh is too coarse for it.
   [[nodiscard]] double visible(double wavelength) const {
@@ -45,21 +45,22 @@ class Knot {
 
   [[nodiscard]] double radius(SurfacePoint point, const Vec3& core, const Vec3& skin) const {
     // 1. Swelling along the tube, as of muscles.
-    const double swelling = 0.10 * muscles_.at(0.8 * core);
+    const double swelling = 0.16 * muscles_.at(0.7 * core);
     // 2. Three strands twisted around each other, with a wandering phase; the grooves between them are sharp.
-    const double phase = 3 * point.v + 10 * point.u + 0.55 * muscles_.at(1.1 * skin + Vec3{5, 9, 2});
+    const double phase = 3 * point.v - 20 * point.u + 0.6 * muscles_.at(0.9 * skin + Vec3{5, 9, 2});
     const double cosine = sinCosTurns(0.5 * phase).cos;  // |cos| has period 1 in phase
-    const double strand = 0.17 * (std::sqrt(cosine * cosine + 0.004) - 0.55);
+    const double back = std::sqrt(cosine * cosine + 0.01);
+    const double strand = 0.30 * (back - 0.6);
     // 3. Meandering folds where a warped field passes zero, strongest on the strands' backs.
-    const Vec3 warped = 3.1 * skin + 0.9 * folds_.vectorAt(1.7 * skin);
-    const double field = folds_.sum(warped, 2);
-    const double fold = 1 / (1 + 40 * field * field) - 0.35;
-    const double folds = 0.052 * visible(0.3) * fold * (0.35 + 0.65 * cosine * cosine);
-    // 4. Ripples across the strands and grain.
-    const double ripples =
-        0.012 * visible(0.16) * sinCosTurns(150 * point.u - 4 * point.v + 0.8 * folds_.at(2.3 * skin)).sin;
-    const double grain = 0.014 * visible(0.14) * grain_.sum(9 * skin, 2);
-    return kTube + swelling + strand + folds + ripples + grain;
+    const Vec3 warped = 2.2 * skin + 0.8 * folds_.vectorAt(1.3 * skin);
+    const double field = folds_.at(warped);
+    const double fold = 1 / (1 + 60 * field * field) - 0.4;
+    const double folds = -0.05 * visible(0.35) * fold * back;
+    // 4. Ribs across the strands, their phase bent by noise, and grain.
+    const double rib = sinCosTurns(24 * point.u + 4 * point.v + 0.5 * folds_.at(1.5 * skin)).cos;
+    const double ribs = 0.13 * visible(0.35) * back * (std::sqrt(rib * rib + 0.01) - 0.6);
+    const double grain = 0.02 * visible(0.25) * grain_.sum(4 * skin, 2) + 0.008 * visible(0.1) * grain_.sum(16 * skin, 2);
+    return kTube + swelling + strand + folds + ribs + grain;
   }
 
   NoiseField muscles_, folds_, grain_;

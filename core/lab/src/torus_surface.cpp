@@ -55,6 +55,14 @@ double TorusSurface::parameterArea(SurfacePoint a, SurfacePoint b, SurfacePoint 
   return bu * cv - bv * cu;
 }
 
+/// Cosine of the angle between the triangles a b left and b a right: 1 is flat.
+double TorusSurface::foldCosine(std::uint32_t a, std::uint32_t b, std::uint32_t left, std::uint32_t right) const {
+  const Vec3 edge = places_[b] - places_[a];
+  const Vec3 one = cross(edge, places_[left] - places_[a]), other = cross(places_[right] - places_[a], edge);
+  const double scale = length(one) * length(other);
+  return scale > 0 ? dot(one, other) / scale : -1;
+}
+
 bool TorusSurface::wantsFlip(std::uint32_t h) const {
   const std::uint32_t g = twin_[h], a = corner_[h], b = corner_[g], c = corner_[previous(h)], d = corner_[previous(g)];
   if (valence_[a] <= 4 || valence_[b] <= 4 || valence_[c] >= 8 || valence_[d] >= 8) return false;
@@ -64,6 +72,8 @@ bool TorusSurface::wantsFlip(std::uint32_t h) const {
   const double sine = length(cross(ac, bc)) * dot(ad, bd) + dot(ac, bc) * length(cross(ad, bd));
   const double scale = length(ac) * length(bc) * length(ad) * length(bd);
   if (!(sine < -1e-9 * scale)) return false;
+  // In a sharp groove the flatter choice of the two looks right, whatever the angles.
+  if (foldCosine(c, d, b, a) < foldCosine(a, b, c, d) - 0.05) return false;
   if (parameterArea(points_[c], points_[d], points_[b]) < 0.02 || parameterArea(points_[d], points_[c], points_[a]) < 0.02)
     return false;
   bool joined = false;

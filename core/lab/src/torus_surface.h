@@ -39,6 +39,7 @@ class TorusSurface {
   static std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static std::uint32_t previous(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
   [[nodiscard]] double parameterArea(SurfacePoint a, SurfacePoint b, SurfacePoint c) const;
+  [[nodiscard]] double foldCosine(std::uint32_t a, std::uint32_t b, std::uint32_t left, std::uint32_t right) const;
   [[nodiscard]] bool wantsFlip(std::uint32_t h) const;
   void flip(std::uint32_t h);
   template <class Visit>
