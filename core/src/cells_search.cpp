@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The embedder's search for embedding cells: natural coplanar sets first, else construction by projection.
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "quadmark/cells.h"
 #include "ring_sets.h"
@@ -13,15 +13,24 @@ struct Point {
   double v[3];
 };
 
-// Twice the vector area of a face (Newell), with one vertex optionally replaced.
-Point faceNormal(const Mesh& mesh, const WeldedMesh& welded, std::uint32_t face, const double* positions,
-                 std::uint32_t replaced, const double* replacement) {
+// Four points and where they shall go.
+struct Flattened {
+  std::uint32_t vertex[4];
+  Point to[4];
+
+  [[nodiscard]] const double* position(std::uint32_t w, const double* positions) const {
+    for (int i = 0; i < 4; ++i)
+      if (vertex[i] == w) return to[i].v;
+    return positions + 3 * std::size_t{w};
+  }
+};
+
+// Twice the vector area of a face (Newell).
+template <class PositionOf>
+Point faceNormal(const Mesh& mesh, const WeldedMesh& welded, std::uint32_t face, const PositionOf& positionOf) {
   Point n{{0, 0, 0}};
   const std::size_t begin = mesh.faceBegin(face), end = mesh.faceEnd(face);
-  const auto at = [&](std::size_t corner) {
-    const std::uint32_t w = welded.weldedOf[mesh.faceVertices[corner]];
-    return w == replaced ? replacement : positions + 3 * std::size_t{w};
-  };
+  const auto at = [&](std::size_t corner) { return positionOf(welded.weldedOf[mesh.faceVertices[corner]]); };
   const double* p = at(end - 1);
   for (std::size_t corner = begin; corner < end; ++corner) {
     const double* q = at(corner);
@@ -31,6 +40,23 @@ Point faceNormal(const Mesh& mesh, const WeldedMesh& welded, std::uint32_t face,
     p = q;
   }
   return n;
+}
+
+// Makes a nearly flat quadrilateral flat at the least total displacement: the gap between its diagonals is closed by
+// moving each end in proportion to its share of the crossing point.
+// Tried: projecting one vertex onto the plane of the others, as the paper does. Its displacement h is about twice the
+// gap, so it spends four times the energy: 2 dB of the bunny's SNR at 8100 bits.
+Flattened flatten(const Quad& q, const double* positions) {
+  Flattened out{{q.a, q.b, q.c, q.d}, {}};
+  const double s = q.ratioAC, t = q.ratioBD;
+  const double sum = (1 - s) * (1 - s) + s * s + (1 - t) * (1 - t) + t * t;
+  const double share[4] = {(1 - s) / sum, -(1 - t) / sum, s / sum, -t / sum};
+  for (int k = 0; k < 3; ++k) {
+    const auto at = [&](std::uint32_t w) { return positions[3 * std::size_t{w} + k]; };
+    const double between = (at(q.b) + t * (at(q.d) - at(q.b))) - (at(q.a) + s * (at(q.c) - at(q.a)));
+    for (int i = 0; i < 4; ++i) out.to[i].v[k] = at(out.vertex[i]) + share[i] * between;
+  }
+  return out;
 }
 
 class Searcher {
@@ -48,6 +74,8 @@ class Searcher {
   }
 
  private:
+  static constexpr int kMaxRefusals = 4;
+
   void seed(std::uint32_t v) {
     // Most neighbourhoods of a half-used mesh are too small; count before gathering.
     if (params_.k == 1) {
@@ -93,66 +121,50 @@ class Searcher {
     return found;
   }
 
-  // Step (3): the least projection of one point onto the plane of three others, up to lambda (D7).
+  // Step (3): the set with the least projection of one of its points onto the plane of the other three, up to lambda
+  // (D7). Sets whose flattening would turn a face over are passed over.
   bool construct(Quad& best) {
-    double bestH2 = lambda_ * lambda_;
-    int moved = -1;
-    Point movedTo{};
-    bool found = false;
-    // Twice the area of a triangle in a ball of radius R is at most 2.6 R^2.
-    ring_.forEach(2.6 * lambda_ * ring_.radius2(), [&](int i, int j, int k, int l, double determinant) {
-      const double volume2 = determinant * determinant;
-      if (volume2 > bestH2 * largestNormal2(i, j, k, l)) return;
-      const int index[4] = {i, j, k, l};
-      const double opposite[4] = {ring_.normal2(j, k, l), ring_.normal2(i, k, l), ring_.normal2(i, j, l),
-                                  ring_.normal2(i, j, k)};
-      for (int option = 0; option < 4; ++option) {
-        if (!(opposite[option] > 0) || volume2 > bestH2 * opposite[option]) continue;
-        const double h2 = volume2 / opposite[option];
+    const double* positions = out_.positions.data();
+    std::uint32_t refused[kMaxRefusals][4];
+    for (int refusals = 0; refusals < kMaxRefusals; ++refusals) {
+      double bestH2 = lambda_ * lambda_;
+      bool found = false;
+      Quad chosen;
+      // Twice the area of a triangle in a ball of radius R is at most 2.6 R^2.
+      ring_.forEach(2.6 * lambda_ * ring_.radius2(), [&](int i, int j, int k, int l, double determinant) {
+        const double h2 = determinant * determinant / largestNormal2(i, j, k, l);
+        if (!(h2 <= bestH2)) return;
+        const std::uint32_t ids[4] = {ring_.vertex(i), ring_.vertex(j), ring_.vertex(k), ring_.vertex(l)};
+        for (int r = 0; r < refusals; ++r)
+          if (std::equal(ids, ids + 4, refused[r])) return;
         Quad quad;
-        Point target;
-        if (!project(index, option, target, quad)) continue;
+        if (!makeQuad(ids, positions, kMinTriangleWriting, quad)) return;
         const double r1 = std::min(quad.ratioAC, quad.ratioBD);
-        if (found && h2 == bestH2 && !(r1 < std::min(best.ratioAC, best.ratioBD))) continue;  // ties by smaller r1
-        if (flips(ring_.vertex(index[option]), target)) continue;
+        if (found && h2 == bestH2 && !(r1 < std::min(chosen.ratioAC, chosen.ratioBD))) return;  // ties by smaller r1
         bestH2 = h2;
-        best = quad;
-        moved = index[option];
-        movedTo = target;
+        chosen = quad;
+        std::copy(ids, ids + 4, refused[refusals]);
         found = true;
-      }
-    });
-    if (!found) return false;
-    double* p = &out_.positions[3 * std::size_t{ring_.vertex(moved)}];
-    for (int k = 0; k < 3; ++k) p[k] = movedTo.v[k];
-    return true;
-  }
-
-  bool project(const int index[4], int option, Point& target, Quad& quad) const {
-    const double* p[4];
-    for (int i = 0; i < 4; ++i) p[i] = &out_.positions[3 * std::size_t{ring_.vertex(index[i])}];
-    const double* x = p[option];
-    const double* q0 = p[option == 0 ? 1 : 0];
-    const double* q1 = p[option <= 1 ? 2 : 1];
-    const double* q2 = p[option <= 2 ? 3 : 2];
-    double u[3], w[3], n[3], d = 0, nn = 0;
-    for (int k = 0; k < 3; ++k) u[k] = q1[k] - q0[k], w[k] = q2[k] - q0[k];
-    n[0] = u[1] * w[2] - u[2] * w[1], n[1] = u[2] * w[0] - u[0] * w[2], n[2] = u[0] * w[1] - u[1] * w[0];
-    for (int k = 0; k < 3; ++k) d += (x[k] - q0[k]) * n[k], nn += n[k] * n[k];
-    for (int k = 0; k < 3; ++k) target.v[k] = x[k] - d / nn * n[k];
-    const double* projected[4] = {p[0], p[1], p[2], p[3]};
-    projected[option] = target.v;
-    if (!makeQuad(projected, kMinTriangleWriting, quad)) return false;
-    for (std::uint32_t* id : {&quad.a, &quad.b, &quad.c, &quad.d}) *id = ring_.vertex(index[*id]);
-    return true;
-  }
-
-  bool flips(std::uint32_t vertex, const Point& target) const {
-    for (std::uint32_t face : rings_.facesOf(vertex)) {
-      const Point before = faceNormal(mesh_, welded_, face, out_.positions.data(), kNoVertex, nullptr);
-      const Point after = faceNormal(mesh_, welded_, face, out_.positions.data(), vertex, target.v);
-      if (before.v[0] * after.v[0] + before.v[1] * after.v[1] + before.v[2] * after.v[2] < 0) return true;
+      });
+      if (!found) return false;
+      const Flattened flat = flatten(chosen, positions);
+      const double* points[4] = {flat.to[0].v, flat.to[1].v, flat.to[2].v, flat.to[3].v};
+      if (!makeQuad(points, kMinTriangleWriting, best) || flips(flat)) continue;
+      for (std::uint32_t* id : {&best.a, &best.b, &best.c, &best.d}) *id = flat.vertex[*id];
+      for (int i = 0; i < 4; ++i) std::copy(flat.to[i].v, flat.to[i].v + 3, &out_.positions[3 * std::size_t{flat.vertex[i]}]);
+      return true;
     }
+    return false;
+  }
+
+  [[nodiscard]] bool flips(const Flattened& flat) const {
+    const double* positions = out_.positions.data();
+    for (std::uint32_t vertex : flat.vertex)
+      for (std::uint32_t face : rings_.facesOf(vertex)) {
+        const Point before = faceNormal(mesh_, welded_, face, [&](std::uint32_t w) { return positions + 3 * std::size_t{w}; });
+        const Point after = faceNormal(mesh_, welded_, face, [&](std::uint32_t w) { return flat.position(w, positions); });
+        if (before.v[0] * after.v[0] + before.v[1] * after.v[1] + before.v[2] * after.v[2] < 0) return true;
+      }
     return false;
   }
 

@@ -16,7 +16,7 @@ std::uint32_t powerOfTen(int exponent) {
 }  // namespace
 
 DigitSlot::DigitSlot(int L, int H)
-    : L_(L), digits_(H - L + 1), codes_(powerOfTen(H - L + 1)), scale_(powerOfTen(H)),
+    : digits_(H - L + 1), codes_(powerOfTen(H - L + 1)), scale_(powerOfTen(H)),
       maxRatio_(0.5 - 0.25 / powerOfTen(L - 1)) {}
 
 RatioDigits DigitSlot::read(double ratio) const {
@@ -26,13 +26,8 @@ RatioDigits DigitSlot::read(double ratio) const {
   return {static_cast<std::uint32_t>(whole / codes_), static_cast<std::uint32_t>(whole % codes_), scaled - cell - 0.5};
 }
 
-std::uint32_t DigitSlot::coarsePrefix(std::uint32_t prefix, int digits) const {
-  for (int extra = L_ - 1 - digits; extra > 0; --extra) prefix /= 10;
-  return prefix;
-}
-
 PairCodec::PairCodec(const PaperParams& params, std::uint32_t pieces)
-    : index_(params.L1, params.H1), piece_(params.L2, params.H2), coarse_(std::min(params.L1, params.L2) - 1),
+    : index_(params.L1, params.H1), piece_(params.L2, params.H2), coarserCell_(std::max(index_.cellWidth(), piece_.cellWidth())),
       pieces_(pieces) {}
 
 Reading PairCodec::read(double ratioA, double ratioB) const {
@@ -50,7 +45,7 @@ Reading PairCodec::read(double ratioA, double ratioB) const {
   out.prefix2 = second.prefix;
   out.residue1 = first.residue;
   out.residue2 = second.residue;
-  if (!ordered(first.prefix, second.prefix)) {
+  if (r2 - r1 < coarserCell_) {
     out.state = ReadingState::ambiguousOrder;
   } else if (first.code >= pieces_) {
     out.state = ReadingState::badIndex;

@@ -66,9 +66,9 @@ bool Embedder::plan(PlannedCell& cell, std::uint32_t piece) {
         if (found && cost1 >= best) continue;
         for (int p2 = std::max(0, natural2 - reach); p2 <= natural2 + reach; ++p2) {
           const auto u1 = static_cast<std::uint32_t>(p1), u2 = static_cast<std::uint32_t>(p2);
-          if (!codec_.ordered(u1, u2) || !pad_.carries(u1, u2)) continue;
+          if (!pad_.carries(u1, u2)) continue;
           const double r2 = slot2.centre(u2, padded_(piece, u1, u2));
-          if (r2 < kMinRatio || r2 > slot2.maxRatio()) continue;
+          if (r2 < kMinRatio || r2 > slot2.maxRatio() || !codec_.ordered(r1, r2)) continue;
           const double cost = cost1 + displacement2(from2, r2, weight2);
           if (found && cost >= best) continue;
           found = true;

@@ -15,7 +15,7 @@
 namespace quadmark {
 namespace {
 
-constexpr std::size_t kWindow = 16;
+constexpr std::size_t kWindow = 64;
 constexpr std::size_t kScarceRepeats = 8;
 
 std::uint64_t spread(std::uint64_t x) {  // two zero bits between the lower 21 bits
@@ -139,12 +139,11 @@ void Embedder::assignWindow(std::span<std::uint32_t> cells, std::uint32_t firstP
       const auto p = static_cast<std::uint32_t>(firstPiece + j);
       double best = 1e300;
       for (std::uint32_t p1 = natural1 > 0 ? natural1 - 1 : 0; p1 <= natural1 + 1; ++p1) {
-        const double d1 = (index.centre(p1, p) - r1) * w1;
+        const double to1 = index.centre(p1, p), d1 = (to1 - r1) * w1;
         if (d1 * d1 >= best) continue;
-        for (std::uint32_t p2 = natural2 > 0 ? natural2 - 1 : 0; p2 <= natural2 + 1; ++p2) {
-          if (!codec_.ordered(p1, p2)) continue;
-          const double d2 = (piece.centre(p2, padded_(p, p1, p2)) - r2) * w2;
-          best = std::min(best, d1 * d1 + d2 * d2);
+        for (std::uint32_t p2 = std::max(natural2 > 0 ? natural2 - 1 : 0, p1); p2 <= natural2 + 1; ++p2) {
+          const double to2 = piece.centre(p2, padded_(p, p1, p2)), d2 = (to2 - r2) * w2;
+          if (codec_.ordered(to1, to2) && to2 <= piece.maxRatio()) best = std::min(best, d1 * d1 + d2 * d2);
         }
       }
       cost[i * n + j] = static_cast<float>(best);

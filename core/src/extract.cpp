@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLeastPurity = 0.02;      // kinds below this do not vote
 constexpr double kLeastConfidence = 0.1;   // bits below this are erasures
+constexpr float kSettledConfidence = 0.98f;  // below this on any bit, more tolerant passes are tried
 constexpr double kPassFactor = 8;          // how fast the tolerance rises from pass to pass
 constexpr double kTrustedPurity = 0.5;     // vertices of such cells are "used" for later passes
 constexpr double kMaxRepeats = 4;          // identical readings (index, label, piece) count at most this often
@@ -160,8 +161,10 @@ class Extractor {
 
   [[nodiscard]] std::uint32_t voters() const { return static_cast<std::uint32_t>(accepted_.size()); }
 
+  // Nothing left to gain: every bit is read, and none on thin ice.
   [[nodiscard]] bool complete() const {
-    return excess_ > 0 && std::none_of(out_.erased.begin(), out_.erased.end(), [](std::uint8_t e) { return e != 0; });
+    return excess_ > 0 && std::all_of(out_.confidence.begin(), out_.confidence.end(),
+                                      [](float confidence) { return confidence >= kSettledConfidence; });
   }
 
   // Sums the votes of everything accepted so far: bits, erasures, confidence (D22).

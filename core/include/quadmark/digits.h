@@ -40,11 +40,8 @@ class DigitSlot {
   /// and the far end.
   [[nodiscard]] double maxRatio() const { return maxRatio_; }
 
-  /// The prefix cut to its first `digits` digits.
-  [[nodiscard]] std::uint32_t coarsePrefix(std::uint32_t prefix, int digits) const;
-
  private:
-  int L_, digits_;
+  int digits_;
   std::uint32_t codes_;
   double scale_, maxRatio_;
 };
@@ -74,15 +71,16 @@ class PairCodec {
   /// Reads both ratios of a cell, given in any order, each already measured from its nearer end.
   [[nodiscard]] Reading read(double ratioA, double ratioB) const;
 
-  /// Are these prefixes distinct in the digits before the smaller L (D11)? Only then do r1 and r2 keep their order
-  /// whatever codes they carry.
-  [[nodiscard]] bool ordered(std::uint32_t prefix1, std::uint32_t prefix2) const {
-    return index_.coarsePrefix(prefix1, coarse_) < piece_.coarsePrefix(prefix2, coarse_);
-  }
+  /// Is the index's ratio smaller than the piece's by enough (two digit cells) that rounding cannot exchange them? The
+  /// decoder tells the two apart by size alone, as in Eq. (2), so equal prefixes are legal while the codes keep the
+  /// order (D11). Tried: the paper's rule of distinct prefixes. Most natural ratios lie between 0.4 and 0.5, so at L = 2
+  /// it forces one of two neighbours out by a whole prefix: 3.5 to 4 dB of SNR on seven models, for nothing the decoder
+  /// could notice.
+  [[nodiscard]] bool ordered(double ratio1, double ratio2) const { return ratio2 - ratio1 >= 2 * coarserCell_; }
 
  private:
   DigitSlot index_, piece_;
-  int coarse_;
+  double coarserCell_;  ///< width of the wider digit cell
   std::uint32_t pieces_;
 };
 
