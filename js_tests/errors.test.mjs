@@ -100,8 +100,8 @@ test('models without triangles are refused', async () => {
 });
 
 test('images of unusable size are refused', async () => {
-  await fails(embed(ply, { key, image: { width: 1, height: 1, bits: [1] } }), 'bad_image', /1 x 1/);
-  await fails(embed(ply, { key, image: writePng(1, 1, [0]) }), 'bad_image', /1 x 1/);
+  await fails(embed(ply, { key, image: { width: 1, height: 1, bits: [1] } }), 'bad_image', /1 x 1|single pixel/);
+  await fails(embed(ply, { key, image: writePng(1, 1, [0]) }), 'bad_image', /1 x 1|single pixel/);
   await fails(embed(ply, { key, image: logo(25) }), 'bad_image', /25 x 25.*24 x 24|24 x 24.*25 x 25/);
   await fails(embed(ply, { key, image: Buffer.from('no picture') }), 'bad_image', /PNG/);
   await fails(embed(ply, { key, image: logoPng(image).subarray(0, 60) }), 'bad_image', /PNG/);
@@ -109,9 +109,7 @@ test('images of unusable size are refused', async () => {
   await fails(embed(ply, { key, image: { width: 24, height: 24, bits: new Uint8Array(576).fill(2) } }), 'bad_image', /bits\[0\] is 2/);
   await fails(extract(ply, { key, reference: logo(25) }), 'bad_image', /25 x 25/);
   // A header that claims 60000 x 60000 pixels, refused without allocating them.
-  const huge = writePng(2, 2, [0, 0, 0, 0]);
-  huge.writeUInt32BE(60000, 16);
-  huge.writeUInt32BE(60000, 20);
+  const huge = writePng(2, 2, [0, 0, 0, 0], { width: 60000, height: 60000 });
   await fails(embed(ply, { key, image: huge }), 'too_large', /60000/);
   await fails(createKey({ width: 1025, height: 24 }), 'bad_option', /width.*1024/);
 });

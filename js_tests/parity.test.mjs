@@ -14,6 +14,22 @@ const skip = existsSync(native) ? false : `${native} is not built (cmake --build
 const equal = (actual, expected, what) =>
   assert.equal(Buffer.compare(Buffer.from(actual), Buffer.from(expected)), 0, `${what}: native and wasm differ`);
 
+/**
+ * Equal reports. Three measures go through the C library's log and acos, whose last bit differs between platforms;
+ * they are printed, and decide nothing.
+ */
+function assertSameReport(actual, expected, what) {
+  const round = (report) => {
+    const copy = structuredClone(report);
+    for (const name of ['snrDb', 'normalPsnrDb', 'meanNormalDeg']) {
+      const value = copy.distortion?.[name];
+      if (typeof value === 'number') copy.distortion[name] = Number(value.toPrecision(10));
+    }
+    return copy;
+  };
+  assert.deepEqual(round(actual), round(expected), what);
+}
+
 async function runNative(...args) {
   const { status, json, stderr } = await run(native, args.map(String));
   assert.equal(status, 0, stderr || JSON.stringify(json));
@@ -40,7 +56,7 @@ async function compare(t, path, { size = 24, L = 2, attacks = [{ kind: 'crop', a
   equal(marked.bytes, readFileSync(out), `${name}: marked file`);
   const changed = Object.keys(marked.resources).sort();
   changed.forEach((uri, i) => equal(marked.resources[uri], readFileSync(`${out}.${i}`), `${name}: ${uri}`));
-  assert.deepEqual(marked.report, nativeReport, `${name}: embed report`);
+  assertSameReport(marked.report, nativeReport, `${name}: embed report`);
 
   const read = async (file, bytes, given, what) => {
     const there = Object.keys(given).map((uri) => `${uri}=${out}.${changed.indexOf(uri)}`);

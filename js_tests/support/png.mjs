@@ -24,11 +24,14 @@ function chunk(type, data) {
   return result;
 }
 
-/** @param levels  width * height values 0 (black) to 255 */
-export function writePng(width, height, levels) {
+/**
+ * @param levels   width * height values 0 (black) to 255
+ * @param claimed  the size to write into the header instead, for files that lie
+ */
+export function writePng(width, height, levels, claimed = { width, height }) {
   const header = Buffer.alloc(13);
-  header.writeUInt32BE(width, 0);
-  header.writeUInt32BE(height, 4);
+  header.writeUInt32BE(claimed.width, 0);
+  header.writeUInt32BE(claimed.height, 4);
   header[8] = 8;  // bits; colour type 0 = grey
   const rows = Buffer.alloc(height * (width + 1));
   for (let y = 0; y < height; ++y) Buffer.from(levels.slice(y * width, (y + 1) * width)).copy(rows, y * (width + 1) + 1);

@@ -17,7 +17,7 @@ export function checkSettings(settings = {}, extra = []) {
 }
 
 export async function readKey(options) {
-  if (options.key === undefined) {
+  if (!options.key) {  // an empty QUADMARK_KEY_FILE is none
     throw new QuadmarkError('bad_option', 'no key: give --key FILE or set QUADMARK_KEY_FILE');
   }
   const settings = checkSettings(options.set);
