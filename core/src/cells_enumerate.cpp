@@ -96,11 +96,7 @@ void forEachCoplanarSet(const WeldedMesh& welded, const std::vector<double>& pos
 
     // Cheap test first: gap = |determinant| / |e x f|, and two chords of a ball of radius R span at most (2 R)^2.
     const double radius2 = ring.radius2();
-    double magnitude = 0;
-    for (std::uint32_t w : members)
-      for (int axis = 0; axis < 3; ++axis)
-        magnitude = std::max(magnitude, std::fabs(positions[3 * std::size_t{w} + axis]));
-    const double longest = 2 * std::sqrt(radius2), unit = std::max(rounding.relative * magnitude, 1e-8 * longest);
+    const double longest = 2 * std::sqrt(radius2), unit = std::max(rounding.relative * ring.magnitude(), 1e-8 * longest);
     const double reach = std::min(limit.units * unit, std::max(kExactUnits * unit, limit.relative * longest));
     const double largest = 1.0001 * reach * 4 * radius2;
     ring.forEach(largest, [&](int a, int b, int c, int d, double) {

@@ -105,7 +105,7 @@ class Searcher {
   // Steps (1) and (2) of section 3.2: among natural coplanar sets the one with the longest diagonals (D6).
   bool naturalCell(Quad& best) {
     bool found = false;
-    const double tolerance = 1e-7 * std::sqrt(4 * ring_.radius2()) + kExactUnits * rounding_.relative * magnitude();
+    const double tolerance = 1e-7 * std::sqrt(4 * ring_.radius2()) + kExactUnits * rounding_.relative * ring_.magnitude();
     ring_.forEach(4 * tolerance * ring_.radius2(), [&](int i, int j, int k, int l, double determinant) {
       // |e x f| of the diagonals is at most twice the largest triangle's normal, so this never rejects too much.
       const double largest = largestNormal2(i, j, k, l);
@@ -171,13 +171,6 @@ class Searcher {
   double largestNormal2(int i, int j, int k, int l) const {
     return std::max(std::max(ring_.normal2(i, j, k), ring_.normal2(i, j, l)),
                     std::max(ring_.normal2(i, k, l), ring_.normal2(j, k, l)));
-  }
-
-  double magnitude() const {
-    double m = 0;
-    for (std::uint32_t w : members_)
-      for (int k = 0; k < 3; ++k) m = std::max(m, std::fabs(out_.positions[3 * std::size_t{w} + k]));
-    return m;
   }
 
   const Mesh& mesh_;

@@ -16,7 +16,7 @@ std::uint32_t powerOfTen(int exponent) {
 }  // namespace
 
 DigitSlot::DigitSlot(int L, int H)
-    : digits_(H - L + 1), codes_(powerOfTen(H - L + 1)), scale_(powerOfTen(H)),
+    : digits_(H - L + 1), codes_(powerOfTen(H - L + 1)), scale_(powerOfTen(H)), width_(1 / scale_),
       maxRatio_(0.5 - 0.25 / powerOfTen(L - 1)) {}
 
 RatioDigits DigitSlot::read(double ratio) const {

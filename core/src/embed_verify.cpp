@@ -97,14 +97,17 @@ bool Embedder::readsReordered() const {
   Mesh copy;
   copy.precision = mesh_.precision;
   const std::size_t vertices = mesh_.vertexCount(), faces = mesh_.faceCount();
-  // A multiplication by an odd constant modulo a power of two, walked over its range, is a permutation that needs no
-  // memory: index -> (a * index + b) mod 2^n, skipping what is out of range.
+  // Blocks of 1024 in scattered order, each back to front with a stride: far from the file's order, near enough in memory.
   const auto shuffled = [](std::size_t count, const auto& visit) {
-    std::uint64_t size = 1;
-    while (size < count) size *= 2;
-    for (std::uint64_t i = 0; i < size; ++i) {
-      const std::uint64_t at = (i * 0x9e3779b97f4a7c15u + 0x7f4a7c15u) & (size - 1);
-      if (at < count) visit(static_cast<std::size_t>(at));
+    constexpr std::uint64_t kBlock = 1024;
+    std::uint64_t blocks = 1;
+    while (blocks * kBlock < count) blocks *= 2;
+    for (std::uint64_t i = 0; i < blocks; ++i) {
+      const std::uint64_t block = (i * 0x9e3779b97f4a7c15u + 0x7f4a7c15u) & (blocks - 1);  // odd factor: a permutation
+      for (std::uint64_t k = 0; k < kBlock; ++k) {
+        const std::uint64_t at = block * kBlock + ((kBlock - 1 - k) * 397 & (kBlock - 1));
+        if (at < count) visit(static_cast<std::size_t>(at));
+      }
     }
   };
   std::vector<std::uint32_t> newIndex(vertices);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "quadmark/cells.h"
@@ -29,6 +30,7 @@ class RingSets {
     seedIsMember_ = false;
     count_ = 0;
     radius2_ = 0;
+    magnitude_ = std::max(std::fabs(origin[0]), std::max(std::fabs(origin[1]), std::fabs(origin[2])));
     for (std::uint32_t vertex : members) {
       if (vertex == seed) {
         seedIsMember_ = true;
@@ -40,18 +42,10 @@ class RingSets {
       x_[count_] = x, y_[count_] = y, z_[count_] = z;
       ++count_;
       radius2_ = std::max(radius2_, x * x + y * y + z * z);
+      magnitude_ = std::max(magnitude_, std::max(std::fabs(p[0]), std::max(std::fabs(p[1]), std::fabs(p[2]))));
     }
     vertex_[kSeed] = seed;
-    for (int j = 1, ij = 0; j < count_; ++j)
-      for (int i = 0; i < j; ++i, ++ij) {
-        cx_[ij] = y_[i] * z_[j] - z_[i] * y_[j];
-        cy_[ij] = z_[i] * x_[j] - x_[i] * z_[j];
-        cz_[ij] = x_[i] * y_[j] - y_[i] * x_[j];
-      }
-    for (int k = 2, ijk = 0; k < count_; ++k) {
-      const double x = x_[k], y = y_[k], z = z_[k];
-      for (int ij = 0; ij < choose2(k); ++ij, ++ijk) triple_[ijk] = cx_[ij] * x + cy_[ij] * y + cz_[ij] * z;
-    }
+    withCount(count_, [&](auto n) { multiply(n); });
     if (withAreas) computeAreas();
   }
 
@@ -63,6 +57,9 @@ class RingSets {
   /// Largest squared distance of a member from the seed.
   [[nodiscard]] double radius2() const { return radius2_; }
 
+  /// Largest absolute coordinate of seed and members.
+  [[nodiscard]] double magnitude() const { return magnitude_; }
+
   /// 4 area^2 of a triangle, i < j < k, where k may be kSeed. Needs load(..., withAreas = true).
   [[nodiscard]] double normal2(int i, int j, int k) const {
     return k == kSeed ? seedNormal2_[choose2(j) + i] : normal2_[choose3(k) + choose2(j) + i];
@@ -71,12 +68,45 @@ class RingSets {
   /// Calls visit(i, j, k, l, determinant) for every set i < j < k < l with |determinant| <= limit; l may be kSeed.
   template <class Visit>
   void forEach(double limit, const Visit& visit) const {
+    withCount(count_, [&](auto n) { enumerate(n, limit, visit); });
+  }
+
+ private:
+  // Runs an algorithm with the number of points as a compile-time constant for the usual valences: its short triangular
+  // loops then unroll, and unrolled they vectorise.
+  template <class Algorithm>
+  static void withCount(int count, const Algorithm& algorithm) {
+    switch (count) {
+      case 4: return algorithm(std::integral_constant<int, 4>{});
+      case 5: return algorithm(std::integral_constant<int, 5>{});
+      case 6: return algorithm(std::integral_constant<int, 6>{});
+      case 7: return algorithm(std::integral_constant<int, 7>{});
+      default: return algorithm(count);
+    }
+  }
+
+  template <class Count>
+  void multiply(Count n) {
+    for (int j = 1, ij = 0; j < n; ++j)
+      for (int i = 0; i < j; ++i, ++ij) {
+        cx_[ij] = y_[i] * z_[j] - z_[i] * y_[j];
+        cy_[ij] = z_[i] * x_[j] - x_[i] * z_[j];
+        cz_[ij] = x_[i] * y_[j] - y_[i] * x_[j];
+      }
+    for (int k = 2, ijk = 0; k < n; ++k) {
+      const double x = x_[k], y = y_[k], z = z_[k];
+      for (int ij = 0; ij < choose2(k); ++ij, ++ijk) triple_[ijk] = cx_[ij] * x + cy_[ij] * y + cz_[ij] * z;
+    }
+  }
+
+  template <class Count, class Visit>
+  void enumerate(Count n, double limit, const Visit& visit) const {
     if (seedIsMember_)
-      for (int k = 2, ijk = 0; k < count_; ++k)
+      for (int k = 2, ijk = 0; k < n; ++k)
         for (int j = 1; j < k; ++j)
           for (int i = 0; i < j; ++i, ++ijk)
             if (std::fabs(triple_[ijk]) <= limit) visit(i, j, k, kSeed, triple_[ijk]);
-    for (int l = 3; l < count_; ++l)
+    for (int l = 3; l < n; ++l)
       for (int k = 2; k < l; ++k)
         for (int j = 1; j < k; ++j) {
           const double jkl = triple_[choose3(l) + choose2(k) + j];
@@ -89,7 +119,6 @@ class RingSets {
         }
   }
 
- private:
   void computeAreas() {
     for (int ij = 0; ij < choose2(count_); ++ij)
       seedNormal2_[ij] = cx_[ij] * cx_[ij] + cy_[ij] * cy_[ij] + cz_[ij] * cz_[ij];
@@ -105,11 +134,13 @@ class RingSets {
 
   int count_ = 0;
   bool seedIsMember_ = false;
-  double radius2_ = 0;
+  double radius2_ = 0, magnitude_ = 0;
   std::array<std::uint32_t, kSeed + 1> vertex_;
   std::array<double, kSeed> x_, y_, z_;
-  std::array<double, choose2(kSeed)> cx_, cy_, cz_, seedNormal2_;
-  std::array<double, choose3(kSeed)> triple_, normal2_;
+  std::array<double, choose2(kSeed)> cx_, cy_, cz_;
+  std::array<double, choose3(kSeed)> triple_;
+  std::array<double, choose2(kSeed)> seedNormal2_;
+  std::array<double, choose3(kSeed)> normal2_;
 };
 
 /// Keeps the `limit` members nearest to the seed (D8), ties by position. Members keep no particular order.

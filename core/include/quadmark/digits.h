@@ -26,14 +26,14 @@ class DigitSlot {
 
   [[nodiscard]] std::uint32_t codeCount() const { return codes_; }
   [[nodiscard]] int digitCount() const { return digits_; }
-  [[nodiscard]] double cellWidth() const { return 1 / scale_; }  ///< 10^-H
+  [[nodiscard]] double cellWidth() const { return width_; }  ///< 10^-H
 
   /// @param ratio  0 <= ratio < 1.
   [[nodiscard]] RatioDigits read(double ratio) const;
 
   /// The centre of the digit cell (D10): never an edge, which the first rounding error would cross.
   [[nodiscard]] double centre(std::uint32_t prefix, std::uint32_t code) const {
-    return (double{1} * prefix * codes_ + code + 0.5) / scale_;
+    return (static_cast<double>(prefix) * codes_ + code + 0.5) * width_;
   }
 
   /// Largest ratio that is ever written, 0.5 - 10^-(L-1) / 4 (D12): beyond it a little noise would exchange the near
@@ -43,7 +43,7 @@ class DigitSlot {
  private:
   int digits_;
   std::uint32_t codes_;
-  double scale_, maxRatio_;
+  double scale_, width_, maxRatio_;
 };
 
 /// Why a cell could not be read; anything but `ok` is a detected erasure, never a vote.
