@@ -60,30 +60,20 @@ class LocalDistance {
         sample(0.5 * (here + pointAt(from_, vertexOf[b])), 0.5 * (there + pointAt(to_, vertexOf[b])), ends);
       }
     }
-    std::vector<std::uint32_t> corners;
-    for (std::size_t f = 0; f < mesh_.faceCount(); ++f) {
-      const std::size_t begin = mesh_.faceBegin(f), end = mesh_.faceEnd(f);
-      if (end - begin < 3) continue;
-      corners.clear();
-      Point here, there;
-      for (std::size_t c = begin; c < end; ++c) {
-        corners.push_back(welded_.weldedOf[mesh_.faceVertices[c]]);
-        here = here + pointAt(from_, mesh_.faceVertices[c]);
-        there = there + pointAt(to_, mesh_.faceVertices[c]);
+    for (std::size_t f = 0; f < mesh_.faceCount(); ++f)
+      for (std::size_t c = mesh_.faceBegin(f) + 2; c < mesh_.faceEnd(f); ++c) {
+        const std::uint32_t i = mesh_.faceVertices[mesh_.faceBegin(f)], j = mesh_.faceVertices[c - 1],
+                            k = mesh_.faceVertices[c];
+        const std::uint32_t corners[] = {welded_.weldedOf[i], welded_.weldedOf[j], welded_.weldedOf[k]};
+        sample(1.0 / 3 * (pointAt(from_, i) + pointAt(from_, j) + pointAt(from_, k)),
+               1.0 / 3 * (pointAt(to_, i) + pointAt(to_, j) + pointAt(to_, k)), corners);
       }
-      const double share = 1 / static_cast<double>(end - begin);
-      sample(share * here, share * there, corners, f);
-    }
   }
 
  private:
-  /// @param there  the same place on the other surface: its distance is an upper bound, except for the centre of a
-  ///               polygon, which need not lie on its fan.
-  void sample(const Point& here, const Point& there, std::span<const std::uint32_t> around,
-              std::size_t ownFace = std::numeric_limits<std::size_t>::max()) {
-    const bool exact = ownFace == std::numeric_limits<std::size_t>::max() ||
-                       mesh_.faceEnd(ownFace) - mesh_.faceBegin(ownFace) == 3;
-    double best = exact ? squared(there - here) : squaredToFace(here, mesh_, to_, ownFace);
+  /// @param there  the same place on the other surface: its distance is an upper bound.
+  void sample(const Point& here, const Point& there, std::span<const std::uint32_t> around) {
+    double best = squared(there - here);
     if (best <= worst_) return;
     for (std::uint32_t vertex : around)
       for (std::uint32_t face : rings_.facesOf(vertex)) {

@@ -30,8 +30,8 @@ struct Distortion {
 [[nodiscard]] Distortion distortion(const Mesh& original, const Mesh& marked);
 
 /// Two-sided Hausdorff distance in file units, in the manner of Metro (Cignoni et al. 1998) for meshes with the same
-/// connectivity: every vertex, edge midpoint and face centre of one surface against the faces around the
-/// corresponding place (one ring) of the other. An upper bound of the distance for those samples. Cost: linear.
+/// connectivity: every vertex, edge midpoint and triangle centre (polygons are fanned) of one surface against the faces
+/// around the corresponding place (one ring) of the other. An upper bound of the distance for those samples. Cost: linear.
 [[nodiscard]] double hausdorffLocal(const Mesh& a, const Mesh& b);
 
 /// Two-sided Hausdorff distance between any two meshes, file units, by a tree of boxes over the triangles (polygons are

@@ -81,7 +81,7 @@ enum class Grid : std::uint8_t { common, perAxis };
 struct AttackSpec {
   std::string kind;
   double amount = 0;
-  std::string variant;
+  std::string variant{};
   int iterations = 1;
   std::uint64_t seed = 1;
 };
