@@ -45,6 +45,7 @@ Reading PairCodec::read(double ratioA, double ratioB) const {
   out.prefix2 = second.prefix;
   out.residue1 = first.residue;
   out.residue2 = second.residue;
+  out.chance = chanceOf(first.code, second.code);
   if (r2 - r1 < coarserCell_) {
     out.state = ReadingState::ambiguousOrder;
   } else if (first.code >= pieces_) {
@@ -53,6 +54,22 @@ Reading PairCodec::read(double ratioA, double ratioB) const {
     out.state = ReadingState::badDigit;
   }
   return out;
+}
+
+double PairCodec::chanceOf(std::uint32_t indexCode, std::uint32_t pieceCode) const {
+  // With a single digit there is nothing but the leading one; then it counts as uniform.
+  const std::uint32_t range1 = index_.codeCount() / 10, range2 = piece_.codeCount() / 10;
+  double chance = 1;
+  if (range1 == 1) {
+    chance = pieces_ / 10.0;
+  } else {
+    const std::uint32_t first = indexCode / range1 * range1;
+    chance = first >= pieces_ ? 0 : std::min(1.0, static_cast<double>(pieces_ - first) / range1);
+  }
+  if (range2 == 1) return 0.8 * chance;
+  if (pieceCode / range2 > 7) return 0;
+  for (int digit = 1; digit < piece_.digitCount(); ++digit) chance *= 0.8;
+  return chance;
 }
 
 std::uint32_t octalDigits(std::uint32_t bits, int digits) {

@@ -59,7 +59,7 @@ class Extractor {
   bool pass(double units, double previous) {
     const double cap = previous == 0 ? 0 : key_.params.tau;
     std::vector<Candidate> candidates;
-    PurityTable table(codec_);
+    PurityTable table;
     bool reachedAny = previous == 0;
     forEachCoplanarSet(welded_, positions_, key_.params.k, rounding_, {units, cap}, used_, [&](const Quad& quad) {
       const double gapUnits = quad.gap / rounding_.unit(quad, positions_.data());

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kMaxPurity = 0.998;
 constexpr double kPriorReadings = 8;  // a kind with few readings leans on the whole pass by this many
+constexpr double kLeastExcess = 2.5;  // standard deviations; a pass that does not show more than chance has no vote
 
 std::uint64_t mix(std::uint64_t x) {
   x = (x ^ x >> 31) * 0x7fb5d329728ea185u;
@@ -18,11 +19,7 @@ std::uint64_t mix(std::uint64_t x) {
 
 }  // namespace
 
-PurityTable::PurityTable(const PairCodec& codec) : seen_(1024, 0) {
-  chance_ = static_cast<double>(codec.pieces()) / codec.indexSlot().codeCount();
-  for (int digit = 0; digit < codec.pieceSlot().digitCount(); ++digit) chance_ *= 0.8;
-  chance_ = std::min(chance_, 0.95);
-}
+PurityTable::PurityTable() : seen_(1024, 0) {}
 
 int PurityTable::kind(double units, const Reading& reading) {
   int flatness = 0;
@@ -53,29 +50,32 @@ bool PurityTable::firstTime(std::uint64_t fingerprint) {
 }
 
 void PurityTable::add(int kind, const Reading& reading, double ratio1, double ratio2) {
-  if (reading.state == ReadingState::ambiguousOrder || reading.state == ReadingState::outOfRange) return;
+  if (!(reading.chance > 0)) return;
   // Ratios to seven decimals: enough to tell readings apart, coarse enough to see that two are the same shape.
   const auto shape = static_cast<std::uint64_t>(ratio1 * 1e7) << 32 | static_cast<std::uint64_t>(ratio2 * 1e7);
   const std::uint64_t fingerprint = mix(shape * 128 + static_cast<std::uint64_t>(kind)) | 1;
   if (!firstTime(fingerprint)) return;
-  ++total_[kind];
-  if (reading.state == ReadingState::ok) ++valid_[kind];
+  total_[kind] += 1;
+  byChance_[kind] += reading.chance;
+  if (reading.state == ReadingState::ok) valid_[kind] += 1;
 }
 
 void PurityTable::estimate() {
-  double valid = 0, total = 0;
-  for (std::size_t i = 0; i < total_.size(); ++i) valid += valid_[i], total += total_[i];
+  double valid = 0, total = 0, byChance = 0;
+  for (std::size_t i = 0; i < total_.size(); ++i) valid += valid_[i], total += total_[i], byChance += byChance_[i];
   purity_.fill(0);
   excess_ = 0;
-  if (total == 0) return;
-  const double sd = std::sqrt(chance_ * (1 - chance_) / total);
-  const double share = valid / total;
-  excess_ = (share - chance_) / sd;
-  // The pass as a whole gets no credit for what chance does half of the time.
-  const double base = std::max(chance_, share - 0.5 * std::sqrt(share * (1 - share) / total));
+  const double variance = total > 0 ? byChance * (1 - byChance / total) : 0;
+  if (!(variance > 0)) return;
+  excess_ = (valid - byChance) / std::sqrt(variance);
+  if (excess_ < kLeastExcess) return;
+  // The pass as a whole gets no credit for what chance does half of the time; a kind with few readings leans on it.
+  const double share = std::max(0.0, (valid - byChance - 0.5 * std::sqrt(variance)) / (total - byChance));
   for (std::size_t i = 0; i < total_.size(); ++i) {
-    const double v = (valid_[i] + kPriorReadings * base) / (total_[i] + kPriorReadings);
-    purity_[i] = std::clamp((v - chance_) / (1 - chance_), 0.0, kMaxPurity);
+    const double chance = (byChance_[i] + kPriorReadings * byChance / total) / (total_[i] + kPriorReadings);
+    const double v = (valid_[i] + kPriorReadings * (chance + share * (1 - chance))) / (total_[i] + kPriorReadings);
+    const double trueShare = std::max(0.0, (v - chance) / (1 - chance));
+    purity_[i] = std::min(trueShare / v, kMaxPurity);
   }
 }
 
