@@ -138,7 +138,8 @@ class Searcher {
         for (int r = 0; r < refusals; ++r)
           if (std::equal(ids, ids + 4, refused[r])) return;
         Quad quad;
-        if (!makeQuad(ids, positions, kMinTriangleWriting, quad)) return;
+        // The gap of a sharply folded set exceeds its h, and flattening moves points by up to 0.7 gaps.
+        if (!makeQuad(ids, positions, kMinTriangleWriting, quad) || quad.gap > lambda_) return;
         const double r1 = std::min(quad.ratioAC, quad.ratioBD);
         if (found && h2 == bestH2 && !(r1 < std::min(chosen.ratioAC, chosen.ratioBD))) return;  // ties by smaller r1
         bestH2 = h2;

@@ -17,8 +17,9 @@ struct Quad {
   std::uint32_t a = 0, b = 0, c = 0, d = 0;
   double ratioAC = 0, ratioBD = 0;    ///< |ao| / |ac| and |bo| / |bd|, both <= 0.5
   double lengthAC = 0, lengthBD = 0;  ///< file units
-  /// Distance between the lines of the two diagonals, file units: 0 iff coplanar. It treats the four points alike and
-  /// never exceeds the distance of one point from the plane of the other three (the paper's h).
+  /// Distance between the lines of the two diagonals, file units: 0 iff coplanar. It treats the four points alike and,
+  /// unless the set is sharply folded, stays below the distance of one point from the plane of the other three (the
+  /// paper's h).
   double gap = 0;
 
   [[nodiscard]] double longerDiagonal() const { return lengthAC > lengthBD ? lengthAC : lengthBD; }
