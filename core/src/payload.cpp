@@ -11,9 +11,7 @@ std::uint64_t labelItem(std::uint32_t prefix1, std::uint32_t prefix2) {
   return std::uint64_t{prefix1} << 32 | prefix2;
 }
 
-std::vector<std::uint32_t> arnold(const Prf& prf, std::uint32_t side) {
-  const std::uint64_t a = 1 + prf.below(0, side - 1), b = 1 + prf.below(1, side - 1);
-  const std::uint32_t rounds = 2 + prf.below(2, 14);
+std::vector<std::uint32_t> arnold(std::uint64_t a, std::uint64_t b, std::uint32_t rounds, std::uint32_t side) {
   std::vector<std::uint32_t> target(std::size_t{side} * side);
   for (std::uint32_t y = 0; y < side; ++y)
     for (std::uint32_t x = 0; x < side; ++x) {
@@ -28,6 +26,26 @@ std::vector<std::uint32_t> arnold(const Prf& prf, std::uint32_t side) {
   return target;
 }
 
+// Arnold maps have short periods where the side has small factors: of the maps for 24 x 24 every ninth is the identity.
+// So the key gives a series of maps, of which the first that moves nearly everything is taken.
+std::vector<std::uint32_t> keyedArnold(const Prf& prf, std::uint32_t side) {
+  constexpr std::uint64_t kAttempts = 32;
+  std::vector<std::uint32_t> best;
+  std::size_t fewest = 0;
+  for (std::uint64_t attempt = 0; attempt < kAttempts; ++attempt) {
+    const std::uint64_t a = 1 + prf.below(3 * attempt, side - 1), b = 1 + prf.below(3 * attempt + 1, side - 1);
+    std::vector<std::uint32_t> target = arnold(a, b, 2 + prf.below(3 * attempt + 2, 14), side);
+    std::size_t unmoved = 0;
+    for (std::size_t i = 0; i < target.size(); ++i) unmoved += target[i] == i;
+    if (best.empty() || unmoved < fewest) {
+      best = std::move(target);
+      fewest = unmoved;
+    }
+    if (fewest <= side) break;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::uint32_t pieceCount(const PaperParams& params) {
@@ -37,7 +55,7 @@ std::uint32_t pieceCount(const PaperParams& params) {
 
 std::vector<std::uint32_t> scrambling(const Key& key) {
   const Prf prf(key.secret, "quadmark/paper/scramble");
-  if (key.params.width == key.params.height && key.params.width > 1) return arnold(prf, key.params.width);
+  if (key.params.width == key.params.height && key.params.width > 1) return keyedArnold(prf, key.params.width);
   std::vector<std::uint32_t> target(key.params.bitCount());
   std::iota(target.begin(), target.end(), 0u);
   for (std::uint32_t i = static_cast<std::uint32_t>(target.size()); i > 1; --i)
