@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+// The page finds marks: drop a model and a key, see the verdict, the probability and the picture.
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import { createKey, embed, extract } from 'quadmark';
+import { attack } from 'quadmark/lab';
+import { assertPicture, assertQuiet, drop, markedSculpture, onDisk, openPage, pageRoot, picture, screenshot, shown, startBrowser, waitFor } from './page_helpers.mjs';
+import { realModel } from './support/files.mjs';
+import { splitGlb } from './support/gltf.mjs';
+import { logo, logoPng } from './support/marks.mjs';
+
+const browser = await startBrowser(after);
+const { model, marked, key, image } = await markedSculpture();
+
+test('the page loads quietly, and nothing is asked of any other origin', async (t) => {
+  const { page, seen } = await openPage(t, browser);
+  assert.equal(await page.title(), 'quadmark: is this model marked?');
+  assert.equal(await page.locator('#check').isDisabled(), true);
+  assert.match(seen.headers.get(browser.url)['content-security-policy'], /^default-src 'none'; script-src 'self' 'wasm-unsafe-eval';/);
+  await screenshot(page, '01-idle');
+  assertQuiet(seen, browser.url);
+});
+
+test('a marked GLB and its key, dropped together, give a match and the exact picture', async (t) => {
+  const { page, seen } = await openPage(t, browser);
+  const { paths } = onDisk(t, { 'sculpture.glb': marked, 'key.json': key });
+  await drop(page, paths);
+  await waitFor(page, 'match');
+  const { verdict, odds } = await shown(page);
+  assert.equal(verdict, 'This model carries the mark of this key.');
+  assert.match(odds, /^1 in 10\s*\d{2,3}$/);
+  await assertPicture(page, image);
+  const confidence = await picture(page, 'confidence');
+  const { image: expected } = await extract(marked, { key });
+  assert.deepEqual([confidence.width, confidence.height], [24, 24]);
+  expected.confidence.forEach((value, i) => assert.ok(Math.abs(confidence.levels[i] - 255 * value) <= 1, `pixel ${i}`));
+  assert.match(await page.locator('#verdict-files').innerText(), /sculpture\.glb · key\.json · key of the tests/);
+  const [large, beside] = await Promise.all(['#image', '#confidence'].map((id) => page.locator(id).boundingBox()));
+  assert.ok(large.width > beside.width && beside.x >= large.x + large.width, 'the picture is large, the confidence beside it');
+  await screenshot(page, '02-match');
+  assertQuiet(seen, browser.url);
+});
+
+test('the verdict is spoken through the live region', async (t) => {
+  const { page } = await openPage(t, browser);
+  const announcer = page.locator('#announcer');
+  assert.equal(await announcer.getAttribute('aria-live'), 'polite');
+  const { paths } = onDisk(t, { 'sculpture.glb': marked, 'key.json': key });
+  await drop(page, paths);
+  await waitFor(page, 'match');
+  await page.waitForFunction(() => /^Match: This model carries .* 1 in 10 to the power of \d+\.$/.test(document.getElementById('announcer').textContent));
+  assert.match(await page.locator('#odds').getAttribute('aria-label'), /to the power of/);
+});
+
+test('a reference picture is shown and compared', async (t) => {
+  const { page, seen } = await openPage(t, browser);
+  const { paths } = onDisk(t, { 'sculpture.glb': marked, 'key.json': key, 'logo.png': logoPng(image) });
+  await drop(page, paths);
+  await waitFor(page, 'match');
+  assert.equal(await page.locator('#reference-caption').innerText(), 'is the same in every pixel');
+  const reference = await picture(page, 'reference');
+  assert.deepEqual(reference.levels, Array.from(image.bits, (bit) => (bit ? 0 : 255)));
+  const other = { ...image, bits: image.bits.map((bit, i) => (i < 7 ? 1 - bit : bit)) };
+  await drop(page, onDisk(t, { 'other.png': logoPng(other) }).paths);
+  await page.waitForFunction(() => document.getElementById('reference-caption').textContent === 'differs in 7 pixels of the 576 that were read');
+  await screenshot(page, '03-match-with-reference');
+  assertQuiet(seen, browser.url);
+});
+
+test('files may come one by one, in any order', async (t) => {
+  const { page } = await openPage(t, browser);
+  const { paths: [glb, json] } = onDisk(t, { 'sculpture.glb': marked, 'key.json': key });
+  await drop(page, [json]);
+  await page.waitForFunction(() => document.getElementById('idle-text').textContent === 'The key is here. Now add the model.');
+  await screenshot(page, '04-key-only');
+  await drop(page, [glb]);
+  await waitFor(page, 'match');
+  await assertPicture(page, image);
+});
+
+test('a marked PLY gives a match and the exact picture', async (t) => {
+  const { page, seen } = await openPage(t, browser);
+  const ply = await markedSculpture({ format: 'ply' });
+  await drop(page, onDisk(t, { 'sculpture.ply': ply.marked, 'my key.json': ply.key }).paths);
+  await waitFor(page, 'match');
+  await assertPicture(page, ply.image);
+  assertQuiet(seen, browser.url);
+});
+
+test('a marked glTF is read with its .bin, dropped as files or as their folder', async (t) => {
+  const { page, seen } = await openPage(t, browser);
+  const { gltf, bin } = splitGlb(marked, 'mesh%20data.bin');
+  const loose = onDisk(t, { 'scene.gltf': gltf, 'mesh data.bin': bin, 'key.json': key });
+  await drop(page, loose.paths);
+  await waitFor(page, 'match');
+  await assertPicture(page, image);
+  await page.reload();
+  const inFolder = splitGlb(marked, 'buffers/data.bin');
+  const { folder } = onDisk(t, {
+    'scene/scene.gltf': inFolder.gltf, 'scene/buffers/data.bin': inFolder.bin, 'scene/key.json': key, 'scene/license.txt': 'free',
+  });
+  await drop(page, [join(folder, 'scene')]);
+  await waitFor(page, 'match');
+  await assertPicture(page, image);
+  assert.deepEqual((await shown(page)).notices, []);
+  assertQuiet(seen, browser.url);
+});
+
+test('textures of a glTF are not taken for the reference', async (t) => {
+  const { page } = await openPage(t, browser);
+  const { gltf, bin } = splitGlb(marked, 'data.bin');
+  const json = JSON.parse(gltf);
+  json.images = [{ uri: 'skin.png' }];
+  await drop(page, onDisk(t, { 'scene.gltf': json, 'data.bin': bin, 'skin.png': logoPng(logo(10, 10)), 'key.json': key }).paths);
+  await waitFor(page, 'match');
+  assert.equal(await page.locator('#reference-figure').isVisible(), false);
+});
+
+test('a damaged model still matches, with unread pixels said', async (t) => {
+  const { page } = await openPage(t, browser);
+  const crop = await attack(marked, { kind: 'crop', amount: 0.9, format: 'glb' });
+  const damaged = await attack(crop.bytes, { kind: 'noise', amount: 4e-6, format: 'glb' });
+  const expected = await extract(damaged.bytes, { key });
+  assert.equal(expected.verdict, 'match');
+  await drop(page, onDisk(t, { 'damaged.glb': damaged.bytes, 'key.json': key }).paths);
+  await waitFor(page, 'match');
+  const { levels } = await picture(page, 'image');
+  assert.deepEqual(levels, Array.from(expected.image.bits, (bit, i) => (expected.image.erased[i] ? 128 : bit ? 0 : 255)));
+  const unread = expected.image.erased.reduce((sum, bit) => sum + bit, 0);
+  assert.match(await page.locator('#image-caption').innerText(), unread > 0 ? new RegExp(`${unread} pixels? could not be read`) : /^24 × 24$/);
+  await screenshot(page, '05-damaged');
+});
+
+test('a wrong key and an unmarked model both read as no mark', async (t) => {
+  const { page, seen } = await openPage(t, browser);
+  const wrong = await createKey({ width: 24, height: 24 });
+  for (const [name, files] of [['wrong-key', { 'sculpture.glb': marked, 'wrong.json': wrong }], ['unmarked', { 'sculpture.glb': model, 'key.json': key }]]) {
+    await page.reload();
+    await drop(page, onDisk(t, files).paths);
+    await waitFor(page, 'none', 'match', 'inconclusive');
+    const { verdict, odds } = await shown(page);
+    assert.equal(verdict, 'No mark of this key was found.', name);
+    assert.doesNotMatch(odds, /million|10\s*\d\d/, name);
+    await screenshot(page, `06-${name}`);
+  }
+  assertQuiet(seen, browser.url);
+});
+
+test('a hidden ID is shown in hexadecimal', async (t) => {
+  const { page, seen } = await openPage(t, browser);
+  const idKey = await createKey({ id: true, owner: 'Zoë <b>& Co</b>' });
+  const { bytes } = await embed(model, { key: idKey, id: 'c0ffee' });
+  await drop(page, onDisk(t, { 'numbered.glb': bytes, 'key.json': idKey }).paths);
+  await waitFor(page, 'match');
+  assert.equal(await page.locator('#id-text').innerText(), '0000000000c0ffee');
+  assert.equal(await page.locator('#image').isVisible(), false);
+  assert.match(await page.locator('#verdict-files').innerText(), /key of Zoë <b>& Co<\/b>$/);
+  await screenshot(page, '07-id');
+  assertQuiet(seen, browser.url);
+});
+
+test('the samples show a match, a damaged match and no mark', async (t) => {
+  const { page, seen } = await openPage(t, browser);
+  const sampleKey = JSON.parse(await readFile(join(pageRoot, 'sample/key.json')));
+  const marks = await readFile(join(pageRoot, 'sample/marked.glb'));
+  const expected = await extract(marks, { key: sampleKey });
+  await page.locator('[data-sample="marked"]').click();
+  await waitFor(page, 'match');
+  await assertPicture(page, expected.image);
+  assert.equal(await page.locator('#reference-caption').innerText(), 'is the same in every pixel');
+  await screenshot(page, '08-sample');
+  await page.locator('[data-sample="unmarked"]').click();
+  await waitFor(page, 'none');
+  await page.locator('[data-sample="damaged"]').click();
+  await waitFor(page, 'match');
+  assert.match(await page.locator('#reference-caption').innerText(), /differs in \d+ pixels/);
+  await screenshot(page, '09-sample-damaged');
+  assertQuiet(seen, browser.url);
+});
+
+test('the report and the picture can be saved', async (t) => {
+  const { page } = await openPage(t, browser);
+  await drop(page, onDisk(t, { 'sculpture.glb': marked, 'key.json': key }).paths);
+  await waitFor(page, 'match');
+  const save = async (id) => {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.locator(id).click()]);
+    return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
+  };
+  const report = await save('#save-report');
+  assert.equal(report.name, 'sculpture.report.json');
+  const { millis, ...told } = JSON.parse(report.bytes);
+  assert.equal(typeof millis, 'number');
+  assert.deepEqual(told, { command: 'extract', input: 'sculpture.glb', ...(await extract(marked, { key })).report });
+  const saved = await save('#save-image');
+  assert.equal(saved.name, 'sculpture.mark.png');
+  assert.deepEqual(saved.bytes, Buffer.from((await extract(marked, { key })).image.png));
+});
+
+test('real models read on the page as they do in Node', async (t) => {
+  const { page, seen } = await openPage(t, browser);
+  for (const name of ['bunny.glb', 'fandisk.ply', 'igea-tristrips.ply']) {
+    const path = realModel(t, name);
+    if (!path) continue;
+    const { bytes } = await embed(await readFile(path), { key, image });
+    await page.reload();
+    await drop(page, onDisk(t, { [name]: bytes, 'key.json': key }).paths);
+    await waitFor(page, 'match');
+    await assertPicture(page, image);
+  }
+  assertQuiet(seen, browser.url);
+});

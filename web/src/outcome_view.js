@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// The right-hand side of the page: idle, working, problem or result. Only writes to the document.
+import { missingWords, oneIn, oneInSpoken, percent, problemWords, stageWords, verdictWords, whole } from './words.js';
+
+const $ = (id) => document.getElementById(id);
+const PANELS = ['idle', 'working', 'problem', 'result'];
+
+/** Object URLs shown now; given back when the next result comes. */
+let urls = [];
+let ticking = null;
+
+function urlOf(content, type) {
+  const url = URL.createObjectURL(new Blob([content], { type }));
+  urls.push(url);
+  return url;
+}
+
+function show(panel, state = panel) {
+  for (const name of PANELS) $(name).hidden = name !== panel;
+  $('outcome').dataset.state = state;
+  $('outcome').setAttribute('aria-busy', String(panel === 'working'));
+  clearInterval(ticking);
+}
+
+/** Says it to screen readers, the same words again included. */
+function announce(text) {
+  $('announcer').textContent = '';
+  requestAnimationFrame(() => { $('announcer').textContent = text; });
+}
+
+export function showIdle(text, { spoken = false } = {}) {
+  $('idle-text').textContent = text;
+  if (spoken) announce(text);
+  show('idle');
+}
+
+export function showWorking(modelName) {
+  $('working-name').textContent = modelName;
+  const started = performance.now();
+  const tick = () => {
+    const seconds = Math.floor((performance.now() - started) / 1000);
+    $('elapsed').textContent = seconds > 0 ? `${seconds} s` : '';
+  };
+  show('working');
+  tick();
+  ticking = setInterval(tick, 250);
+  showProgress({ stage: 'load', done: 0 });
+  announce(`Checking ${modelName}`);
+}
+
+export function showProgress({ stage, done }) {
+  $('progress').value = done;
+  $('progress').dataset.stage = stage;
+  $('stage').textContent = `${stageWords(stage)} …`;
+}
+
+function showSentences({ title, text, hint }, state) {
+  $('problem-title').textContent = title;
+  $('problem-text').textContent = text;
+  $('problem-hint').textContent = hint;
+  announce([title, text, hint].join(' '));
+  show('problem', state);
+}
+
+export const showProblem = (problem, names) => showSentences(problemWords(problem, names), 'problem');
+export const showMissing = (uris, modelName) => showSentences(missingWords(uris, modelName), 'missing');
+
+function odds(falsePositive) {
+  const value = oneIn(falsePositive);
+  if (!value) return [document.createTextNode('No better than chance')];
+  const parts = [document.createTextNode(value.text)];
+  if (value.exponent !== null) {
+    const power = document.createElement('sup');
+    power.textContent = value.exponent;
+    parts.push(power);
+  }
+  return parts;
+}
+
+function picture(id, png, alt) {
+  const image = $(id);
+  image.src = urlOf(png, 'image/png');
+  image.alt = alt;
+}
+
+const pixels = (n) => `${whole(n)} ${n === 1 ? 'pixel' : 'pixels'}`;
+const countOnes = (bits) => bits.reduce((sum, bit) => sum + bit, 0);
+
+/** Pixels that were read, and read otherwise than the reference has them. */
+function differing(image, reference) {
+  let n = 0;
+  image.bits.forEach((bit, i) => { if (!image.erased[i] && bit !== reference.bits[i]) ++n; });
+  return n;
+}
+
+function showPictures(result) {
+  const { image, reference, verdict, isId } = result;
+  const unread = countOnes(image.erased);
+  const size = `${image.width} by ${image.height} pixels`;
+  $('pictures').classList.toggle('of-id', isId);
+  $('image-figure').hidden = isId;
+  picture('confidence', image.confidencePng,
+    `Confidence per ${isId ? 'bit' : 'pixel'}, white is certain; ${percent(result.averageConfidence)} on average`);
+  if (!isId) {
+    picture('image', image.png, verdict === 'none' ? `What this key reads without a mark, ${size}` : `The extracted picture, ${size}`);
+    const left = unread > 0 ? `; ${pixels(unread)} could not be read (grey)` : '';
+    $('image-caption').textContent = verdict === 'none' ? 'is noise: there is no mark to read.' : `${image.width} × ${image.height}${left}`;
+  }
+  $('reference-figure').hidden = !reference || isId;
+  if (reference && !isId) {
+    picture('reference', reference.png, `Your reference, ${size}`);
+    const wrong = differing(image, reference);
+    $('reference-caption').textContent = wrong === 0 && unread === 0
+      ? 'is the same in every pixel'
+      : `differs in ${pixels(wrong)} of the ${whole(image.bits.length - unread)} that were read`;
+  }
+}
+
+function showFacts(result) {
+  const { report, image } = result;
+  const facts = [
+    ['Key made for', result.owner || 'nobody in particular'],
+    ['Cells that carry the reading', whole(report.cells)],
+    ['Pieces read', whole(report.piecesRead)],
+    ['Pixels not read', `${whole(countOnes(image.erased))} of ${whole(image.bits.length)}`],
+    ['Average confidence', percent(result.averageConfidence)],
+    ...(report.ber === undefined ? [] : [['Wrong bits against the reference', percent(report.ber)]]),
+    ['False-positive probability, at most', result.falsePositive.toExponential(2)],
+    ['Time', `${(result.millis / 1000).toFixed(2)} s`],
+  ];
+  $('facts').replaceChildren(...facts.flatMap(([name, value]) => {
+    const term = document.createElement('dt'), description = document.createElement('dd');
+    term.textContent = name;
+    description.textContent = value;
+    return [term, description];
+  }));
+}
+
+/** @param names  file name by "model", "key", "reference" */
+export function showResult(result, names) {
+  for (const url of urls) URL.revokeObjectURL(url);
+  urls = [];
+  const words = verdictWords(result);
+  $('verdict').dataset.verdict = result.verdict;
+  $('verdict-label').textContent = words.label;
+  $('verdict-title').textContent = words.title;
+  $('verdict-files').textContent = [names.model, names.key, result.owner && `key of ${result.owner}`].filter(Boolean).join(' · ');
+  $('odds').replaceChildren(...odds(result.falsePositive));
+  $('odds').setAttribute('aria-label', oneInSpoken(result.falsePositive));
+  $('odds-meaning').textContent = words.meaning;
+  $('found-id').hidden = result.id === null;
+  $('id-text').textContent = result.id ?? '';
+  showPictures(result);
+  showFacts(result);
+  $('warnings').replaceChildren(...result.report.warnings.map((warning) => {
+    const item = document.createElement('li');
+    item.textContent = warning;
+    return item;
+  }));
+  $('warnings').hidden = result.report.warnings.length === 0;
+
+  const stem = names.model.replace(/\.[^.]*$/, '');
+  $('save-image').hidden = result.isId;
+  $('save-image').href = urlOf(result.image.png, 'image/png');
+  $('save-image').download = `${stem}.mark.png`;
+  $('save-report').href = urlOf(`${JSON.stringify(result.report, null, 2)}\n`, 'application/json');
+  $('save-report').download = `${stem}.report.json`;
+  show('result', result.verdict);
+  announce(`${words.label}: ${words.title} Probability of a false alarm: ${oneInSpoken(result.falsePositive)}.`);
+}
