@@ -13,6 +13,7 @@
 #include "point_triangle.h"
 #include "quadmark/adjacency.h"
 #include "quadmark/metrics.h"
+#include "surface_distance.h"
 
 namespace quadmark {
 namespace {
@@ -103,9 +104,10 @@ class BoxTree {
   [[nodiscard]] bool empty() const { return triangles_.empty(); }
 
   /// Squared distance to the nearest triangle; any value <= `enough` once one is known to be that near.
-  [[nodiscard]] double nearest(const Point& p, double enough) const {
-    double best = kInfinity;
-    search(0, p, enough, best);
+  /// @param hint  a triangle to try first: the one found for a neighbouring point. Receives the one found here.
+  [[nodiscard]] double nearest(const Point& p, double enough, std::uint32_t& hint) const {
+    double best = distanceTo(hint, p);
+    if (best > enough) search(0, p, enough, best, hint);
     return best;
   }
 
@@ -151,14 +153,19 @@ class BoxTree {
     return x * x + y * y + z * z;
   }
 
+  [[nodiscard]] double distanceTo(std::uint32_t triangle, const Point& p) const {
+    const Triangle& t = triangles_[triangle];
+    return squaredToTriangle(p, pointAt(mesh_.positions, t.a), pointAt(mesh_.positions, t.b), pointAt(mesh_.positions, t.c));
+  }
+
   // Depth is log2 of the triangle count: the halves are equal.
-  void search(std::uint32_t index, const Point& p, double enough, double& best) const {
+  void search(std::uint32_t index, const Point& p, double enough, double& best, std::uint32_t& found) const {
     const Node& node = nodes_[index];
     if (node.right == 0) {
-      for (std::uint32_t i = node.begin; i < node.end && best > enough; ++i)
-        best = std::min(best, squaredToTriangle(p, pointAt(mesh_.positions, triangles_[i].a),
-                                                pointAt(mesh_.positions, triangles_[i].b),
-                                                pointAt(mesh_.positions, triangles_[i].c)));
+      for (std::uint32_t i = node.begin; i < node.end && best > enough; ++i) {
+        const double distance = distanceTo(i, p);
+        if (distance < best) best = distance, found = i;
+      }
       return;
     }
     std::uint32_t near = index + 1, far = node.right;
@@ -167,8 +174,8 @@ class BoxTree {
       std::swap(near, far);
       std::swap(nearDistance, farDistance);
     }
-    if (nearDistance < best) search(near, p, enough, best);
-    if (best > enough && farDistance < best) search(far, p, enough, best);
+    if (nearDistance < best) search(near, p, enough, best, found);
+    if (best > enough && farDistance < best) search(far, p, enough, best, found);
   }
 
   const Mesh& mesh_;
@@ -178,7 +185,8 @@ class BoxTree {
 
 /// Samples of `from` against `tree`: `worst` rises to the largest squared distance.
 void oneSided(const Mesh& from, const BoxTree& tree, int samplesPerFace, double& worst) {
-  const auto sample = [&](const Point& p) { worst = std::max(worst, tree.nearest(p, worst)); };
+  std::uint32_t last = 0;
+  const auto sample = [&](const Point& p) { worst = std::max(worst, tree.nearest(p, worst, last)); };
   std::vector<std::uint8_t> used(from.vertexCount(), 0);
   for (std::uint32_t v : from.faceVertices) used[v] = 1;
   for (std::size_t v = 0; v < used.size(); ++v)
@@ -201,14 +209,15 @@ void oneSided(const Mesh& from, const BoxTree& tree, int samplesPerFace, double&
 
 }  // namespace
 
-double hausdorffLocal(const Mesh& a, const Mesh& b) {
-  const WeldedMesh welded = weld(a);
+double detail::hausdorffLocal(const Mesh& a, const Mesh& b, const WeldedMesh& welded) {
   const FaceRings rings = faceRings(a, welded);
   double worst = 0;
   LocalDistance(a, welded, rings, a.positions, b.positions, worst).run();
   LocalDistance(a, welded, rings, b.positions, a.positions, worst).run();
   return std::sqrt(worst);
 }
+
+double hausdorffLocal(const Mesh& a, const Mesh& b) { return detail::hausdorffLocal(a, b, weld(a)); }
 
 double hausdorff(const Mesh& a, const Mesh& b, int samplesPerFace) {
   const BoxTree treeA(a), treeB(b);

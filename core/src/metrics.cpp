@@ -8,6 +8,7 @@
 
 #include "point_triangle.h"
 #include "quadmark/adjacency.h"
+#include "surface_distance.h"
 
 namespace quadmark {
 namespace {
@@ -29,7 +30,8 @@ std::vector<std::uint8_t> usedVertices(const Mesh& mesh) {
 /// any choice of first corner.
 std::vector<Point> vertexNormals(const Mesh& mesh, const std::vector<double>& positions, const WeldedMesh& welded) {
   std::vector<Point> normals(welded.vertexCount());
-  for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+  const std::size_t faces = mesh.faceCount();
+  for (std::size_t f = 0; f < faces; ++f) {
     const std::size_t begin = mesh.faceBegin(f), end = mesh.faceEnd(f);
     if (end - begin < 3) continue;
     const Point first = pointAt(positions, mesh.faceVertices[begin]);
@@ -72,19 +74,19 @@ void measureDisplacement(const Mesh& original, const Mesh& marked, double diagon
   }
 }
 
-void measureNormals(const Mesh& original, const Mesh& marked, Distortion& out) {
+void measureNormals(const Mesh& original, const Mesh& marked, const WeldedMesh& welded, Distortion& out) {
   constexpr double kPi = 3.14159265358979323846;
-  const WeldedMesh welded = weld(original);
   const std::vector<Point> before = vertexNormals(original, original.positions, welded);
   const std::vector<Point> after = vertexNormals(original, marked.positions, welded);
   double count = 0, squares = 0, sum = 0;
   for (std::size_t v = 0; v < before.size(); ++v) {
     if (!(squared(before[v]) > 0) || !(squared(after[v]) > 0)) continue;
     // atan2 of sine and cosine is exact for the tiny angles met here, where acos is not.
+    count += 1;
+    if (before[v].x == after[v].x && before[v].y == after[v].y && before[v].z == after[v].z) continue;
     const double angle = std::atan2(std::sqrt(squared(cross(before[v], after[v]))), dot(before[v], after[v]));
     squares += angle * angle;
     sum += angle;
-    count += 1;
   }
   const double rms = count > 0 ? std::sqrt(squares / count) : 0;
   out.normalPsnrDb = rms > 0 ? 20 * std::log10(kPi / rms) : std::numeric_limits<double>::infinity();
@@ -98,8 +100,9 @@ Distortion distortion(const Mesh& original, const Mesh& marked) {
   Distortion out;
   const double diagonal = boundingDiagonal(original);
   measureDisplacement(original, marked, diagonal, out);
-  measureNormals(original, marked, out);
-  if (diagonal > 0) out.hausdorffRel = hausdorffLocal(original, marked) / diagonal;
+  const WeldedMesh welded = weld(original);
+  measureNormals(original, marked, welded, out);
+  if (diagonal > 0) out.hausdorffRel = detail::hausdorffLocal(original, marked, welded) / diagonal;
   return out;
 }
 

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "quadmark/adjacency.h"
+#include "quadmark/mesh.h"
+
+namespace quadmark::detail {
+
+/// hausdorffLocal() for callers that have welded `a` already.
+[[nodiscard]] double hausdorffLocal(const Mesh& a, const Mesh& b, const WeldedMesh& welded);
+
+}  // namespace quadmark::detail
