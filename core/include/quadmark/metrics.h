@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <span>
 
-#include "quadmark/image.h"
 #include "quadmark/mesh.h"
 
 namespace quadmark {
