@@ -35,12 +35,13 @@ quietly() {
 
 scripts/setup.sh --no-browser
 . build/deps/env.sh
-quietly "configuring the wasm build" cmake --preset wasm -DQUADMARK_BUILD_TESTS=OFF -B build/wasm-modules
-quietly "building the wasm modules" cmake --build build/wasm-modules --parallel "$(nproc)"
+quietly "configuring the wasm build" cmake --preset wasm
+quietly "building the wasm modules (minutes, the first time)" \
+  cmake --build --preset wasm --parallel "$(nproc)" --target quadmark_wasm --target quadmark_lab_wasm
 node scripts/demo.mjs
 quietly "building the page" npm run build --workspace web
 if [ $serve = yes ]; then
-  exec node scripts/serve_page.mjs
+  exec node web/serve.mjs
 fi
 echo
-echo "The page is in web/dist. To serve it with its strict content security policy: node scripts/serve_page.mjs"
+echo "The page is in web/dist. To serve it with its strict content security policy: node web/serve.mjs"
