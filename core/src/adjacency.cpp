@@ -31,35 +31,51 @@ std::vector<std::uint8_t> referencedVertices(const Mesh& mesh) {
   return used;
 }
 
-// Open addressing over vertex indices: 4 bytes a slot, so two million vertices need 16 MB while welding.
+// Open addressing over vertex indices: 4 bytes a slot, so two million vertices need 16 MB.
+class PositionTable {
+ public:
+  explicit PositionTable(std::size_t count) {
+    std::size_t capacity = 16;
+    while (capacity < 2 * count) capacity *= 2;
+    slots_.assign(capacity, kNoVertex);
+  }
+
+  // The number under which an equal position of the group stands; `number` after entering it, if there was none.
+  template <class PositionOf, class GroupOf>
+  std::uint32_t enter(const double* p, std::uint32_t group, std::uint32_t number, const PositionOf& positionOf,
+                      const GroupOf& groupOf) {
+    std::size_t slot = hashPosition(p, group) & (slots_.size() - 1);
+    for (; slots_[slot] != kNoVertex; slot = (slot + 1) & (slots_.size() - 1)) {
+      const double* q = positionOf(slots_[slot]);
+      if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2] && groupOf(slots_[slot]) == group) return slots_[slot];
+    }
+    slots_[slot] = number;
+    return number;
+  }
+
+ private:
+  std::vector<std::uint32_t> slots_;
+};
+
 void weldPositions(const Mesh& mesh, WeldedMesh& out) {
   const std::size_t count = mesh.vertexCount();
   const std::vector<std::uint8_t> used = referencedVertices(mesh);
-  std::size_t capacity = 16;
-  while (capacity < 2 * count) capacity *= 2;
-  std::vector<std::uint32_t> slots(capacity, kNoVertex);
+  PositionTable table(count);
   out.weldedOf.assign(count, kNoVertex);
   out.positions.reserve(3 * count);
-  std::vector<std::uint32_t> welderGroup;
+  std::vector<std::uint32_t> weldedGroup;
   const bool grouped = !mesh.groups.empty();
-  if (grouped) welderGroup.reserve(count);
   for (std::size_t v = 0; v < count; ++v) {
     if (!used[v]) continue;
     const double* p = &mesh.positions[3 * v];
     const std::uint32_t group = grouped ? mesh.groups[v] : 0;
-    std::size_t slot = hashPosition(p, group) & (capacity - 1);
-    while (slots[slot] != kNoVertex) {
-      const std::uint32_t w = slots[slot];
-      const double* q = &out.positions[3 * std::size_t{w}];
-      if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2] && (!grouped || welderGroup[w] == group)) break;
-      slot = (slot + 1) & (capacity - 1);
-    }
-    if (slots[slot] == kNoVertex) {
-      slots[slot] = static_cast<std::uint32_t>(out.positions.size() / 3);
-      out.positions.insert(out.positions.end(), p, p + 3);
-      if (grouped) welderGroup.push_back(group);
-    }
-    out.weldedOf[v] = slots[slot];
+    const auto next = static_cast<std::uint32_t>(out.positions.size() / 3);
+    out.weldedOf[v] = table.enter(
+        p, group, next, [&](std::uint32_t w) { return &out.positions[3 * std::size_t{w}]; },
+        [&](std::uint32_t w) { return grouped ? weldedGroup[w] : 0; });
+    if (out.weldedOf[v] != next) continue;
+    out.positions.insert(out.positions.end(), p, p + 3);
+    if (grouped) weldedGroup.push_back(group);
   }
   out.positions.shrink_to_fit();
 }
@@ -122,6 +138,19 @@ WeldedMesh weld(const Mesh& mesh) {
   weldPositions(mesh, out);
   collectEdges(mesh, out);
   return out;
+}
+
+bool hasTwins(const std::vector<double>& positions, const std::vector<std::uint32_t>& groups) {
+  const std::size_t count = positions.size() / 3;
+  PositionTable table(count);
+  for (std::size_t v = 0; v < count; ++v) {
+    const auto groupOf = [&](std::uint32_t w) { return groups.empty() ? 0 : groups[w]; };
+    const auto number = static_cast<std::uint32_t>(v);
+    if (table.enter(&positions[3 * v], groupOf(number), number,
+                    [&](std::uint32_t w) { return &positions[3 * std::size_t{w}]; }, groupOf) != number)
+      return true;
+  }
+  return false;
 }
 
 FaceRings faceRings(const Mesh& mesh, const WeldedMesh& welded) {

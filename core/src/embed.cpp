@@ -19,7 +19,7 @@ double displacement2(double from, double to, double length) {
 
 Embedder::Embedder(const Mesh& mesh, std::span<const std::uint8_t> bits, const Key& key)
     : mesh_(mesh), bits_(bits), key_(key), pad_(key), rounding_(roundingOf(mesh.precision)),
-      pieces_(toPieces(bits, key)), codec_(key.params, pieceCount(key.params)), welded_(weld(mesh)),
+      pieces_(toPieces(bits, key)), codec_(key.params, pieceCount(key.params)), welded_(weld(mesh)), positions_(welded_.positions),
       diagonal_(boundingDiagonal(mesh)), padded_(pad_, pieces_, codec_.pieceSlot().digitCount()) {}
 
 Status Embedder::search() {
@@ -193,8 +193,8 @@ Result<MarkedMesh> Embedder::run(const MeshProgress& progress) {
   return result();
 }
 
-MarkedMesh Embedder::result() const {
-  MarkedMesh out = report_;
+MarkedMesh Embedder::result() {
+  MarkedMesh out = std::move(report_);
   out.positions = mesh_.positions;
   for (std::size_t v = 0; v < mesh_.vertexCount(); ++v) {
     const std::uint32_t w = welded_.weldedOf[v];
@@ -208,6 +208,7 @@ MarkedMesh Embedder::result() const {
   out.capacityBits = 3ull * codec_.pieceSlot().digitCount() * out.cells;
   out.repeats = static_cast<double>(out.cells) / static_cast<double>(pieces_.size());
   out.leastRepeats = *std::min_element(copies_.begin(), copies_.end());
+  out.welded = std::move(welded_);
   return out;
 }
 

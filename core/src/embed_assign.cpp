@@ -15,7 +15,7 @@
 namespace quadmark {
 namespace {
 
-constexpr std::size_t kWindow = 64;
+constexpr std::size_t kWindow = 32;
 constexpr std::size_t kScarceRepeats = 8;
 
 std::uint64_t spread(std::uint64_t x) {  // two zero bits between the lower 21 bits
@@ -137,11 +137,14 @@ void Embedder::assignWindow(std::span<std::uint32_t> cells, std::uint32_t firstP
     const std::uint32_t natural1 = index.read(r1).prefix, natural2 = piece.read(r2).prefix;
     for (std::size_t j = 0; j < n; ++j) {
       const auto p = static_cast<std::uint32_t>(firstPiece + j);
-      double best = 1e300;
-      for (std::uint32_t p1 = natural1 > 0 ? natural1 - 1 : 0; p1 <= natural1 + 1; ++p1) {
+      double best = 1e30;
+      // Of each ratio the present prefix and the neighbour on the nearer side; plan() will look further.
+      const double inside1 = index.centre(natural1, p) - r1;
+      const std::uint32_t other1 = inside1 < 0 ? natural1 + 1 : natural1 - (natural1 > 0);
+      for (const std::uint32_t p1 : {natural1, other1}) {
         const double to1 = index.centre(p1, p), d1 = (to1 - r1) * w1;
         if (d1 * d1 >= best) continue;
-        for (std::uint32_t p2 = std::max(natural2 > 0 ? natural2 - 1 : 0, p1); p2 <= natural2 + 1; ++p2) {
+        for (std::uint32_t p2 = std::max(natural2 - (natural2 > 0), p1); p2 <= natural2 + 1; ++p2) {
           const double to2 = piece.centre(p2, padded_(p, p1, p2)), d2 = (to2 - r2) * w2;
           if (codec_.ordered(to1, to2) && to2 <= piece.maxRatio()) best = std::min(best, d1 * d1 + d2 * d2);
         }

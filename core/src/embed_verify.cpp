@@ -77,13 +77,9 @@ void Embedder::repair(const std::vector<std::uint32_t>& bad, const Extraction& r
 // One check: reads `positions` (connectivity `welded`), repairs if asked to. True when exact.
 bool Embedder::check(const WeldedMesh& welded, const std::vector<double>& positions, bool mayRepair,
                      std::uint64_t& salt) {
-  const std::vector<std::uint32_t> bad = badPieces(extractMesh(welded, positions, rounding_, key_));
+  const std::vector<std::uint32_t> bad = badPieces(read(welded, positions));
   if (bad.empty()) return true;
-  if (mayRepair) {
-    ExtractOptions options;
-    options.keepReadings = true;
-    repair(bad, extractMesh(welded, positions, rounding_, key_, options), salt);
-  }
+  if (mayRepair) repair(bad, read(welded, positions, true), salt);
   return false;
 }
 
@@ -93,45 +89,61 @@ std::vector<double> Embedder::mapped(const AffineMap& map) const {
   return out;
 }
 
-bool Embedder::readsReordered() const {
-  Mesh copy;
-  copy.precision = mesh_.precision;
-  const std::size_t vertices = mesh_.vertexCount(), faces = mesh_.faceCount();
-  // Blocks of 1024 in scattered order, each back to front with a stride: far from the file's order, near enough in memory.
-  const auto shuffled = [](std::size_t count, const auto& visit) {
-    constexpr std::uint64_t kBlock = 1024;
-    std::uint64_t blocks = 1;
-    while (blocks * kBlock < count) blocks *= 2;
-    for (std::uint64_t i = 0; i < blocks; ++i) {
-      const std::uint64_t block = (i * 0x9e3779b97f4a7c15u + 0x7f4a7c15u) & (blocks - 1);  // odd factor: a permutation
-      for (std::uint64_t k = 0; k < kBlock; ++k) {
-        const std::uint64_t at = block * kBlock + ((kBlock - 1 - k) * 397 & (kBlock - 1));
-        if (at < count) visit(static_cast<std::size_t>(at));
+// Would a reader of the written file weld the same vertices? Not if rounding has made two of them coincide.
+bool Embedder::weldsAlike() const {
+  std::vector<std::uint32_t> group(mesh_.groups.empty() ? 0 : welded_.vertexCount());
+  if (!group.empty())
+    for (std::size_t v = 0; v < mesh_.vertexCount(); ++v)
+      if (welded_.weldedOf[v] != kNoVertex) group[welded_.weldedOf[v]] = mesh_.groups[v];
+  return !hasTwins(positions_, group);
+}
+
+// The decoder sees a file only through its welded mesh, so a file with permuted vertices and faces is the same welded
+// mesh with other numbers. Building it directly saves the second weld and half the memory of a permuted file.
+// Takes the connectivity apart: the last step of the verification.
+bool Embedder::readsReordered() {
+  if (!weldsAlike()) return false;
+  const std::uint32_t count = welded_.vertexCount();
+  WeldedMesh other;
+  std::vector<std::uint32_t> numberOf(count);
+  {
+    // Blocks of 1024 in scattered order, each back to front with a stride: far from the file's order, near in memory.
+    constexpr std::uint32_t kBlock = 1024;
+    std::vector<std::uint32_t> oldOf;
+    oldOf.reserve(count);
+    std::uint32_t blocks = 1;
+    while (blocks < (count + kBlock - 1) / kBlock) blocks *= 2;
+    for (std::uint32_t i = 0; i < blocks; ++i) {
+      const std::uint32_t block = (i * 0x9e3779b1u + 0x7f4a7c15u) & (blocks - 1);  // odd factor: a permutation
+      for (std::uint32_t k = 0; k < kBlock; ++k) {
+        const std::uint64_t at = std::uint64_t{block} * kBlock + ((kBlock - 1 - k) * 397 & (kBlock - 1));
+        if (at < count) oldOf.push_back(static_cast<std::uint32_t>(at));
       }
     }
-  };
-  std::vector<std::uint32_t> newIndex(vertices);
-  std::uint32_t next = 0;
-  copy.positions.reserve(mesh_.positions.size());
-  shuffled(vertices, [&](std::size_t v) {
-    newIndex[v] = next++;
-    const std::uint32_t w = welded_.weldedOf[v];
-    const double* p = w == kNoVertex ? &mesh_.positions[3 * v] : &positions_[3 * std::size_t{w}];
-    copy.positions.insert(copy.positions.end(), p, p + 3);
-    if (!mesh_.groups.empty()) copy.groups.push_back(mesh_.groups[v]);
-  });
-  copy.faceVertices.reserve(mesh_.faceVertices.size());
-  if (!mesh_.faceOffsets.empty()) copy.faceOffsets.push_back(0);
-  shuffled(faces, [&](std::size_t f) {
-    const std::size_t begin = mesh_.faceBegin(f), size = mesh_.faceEnd(f) - begin;
-    for (std::size_t corner = 0; corner < size; ++corner)
-      copy.faceVertices.push_back(newIndex[mesh_.faceVertices[begin + (corner + 1) % size]]);
-    if (!mesh_.faceOffsets.empty()) copy.faceOffsets.push_back(static_cast<std::uint32_t>(copy.faceVertices.size()));
-  });
-  std::vector<std::uint32_t>().swap(newIndex);
-  const WeldedMesh welded = weld(copy);
-  copy = Mesh{};
-  return badPieces(extractMesh(welded, welded.positions, rounding_, key_)).empty();
+    other.positions.reserve(positions_.size());
+    other.edgeOffsets.reserve(std::size_t{count} + 1);
+    other.neighbours.reserve(welded_.neighbours.size());
+    for (std::uint32_t number = 0; number < count; ++number) numberOf[oldOf[number]] = number;
+    for (std::uint32_t old : oldOf) {
+      const double* p = &positions_[3 * std::size_t{old}];
+      other.positions.insert(other.positions.end(), p, p + 3);
+      other.edgeOffsets.push_back(static_cast<std::uint32_t>(other.neighbours.size()));
+      for (std::uint32_t neighbour : welded_.neighboursOf(old)) other.neighbours.push_back(numberOf[neighbour]);
+      std::sort(other.neighbours.begin() + other.edgeOffsets.back(), other.neighbours.end());
+    }
+    other.edgeOffsets.push_back(static_cast<std::uint32_t>(other.neighbours.size()));
+  }
+  std::vector<std::uint32_t>().swap(numberOf);
+  std::vector<PlannedCell>().swap(cells_);
+  std::vector<std::uint32_t>().swap(cellOf_);
+  return badPieces(read(other, other.positions)).empty();
+}
+
+Extraction Embedder::read(const WeldedMesh& welded, const std::vector<double>& positions, bool keepReadings) const {
+  ExtractOptions options;
+  options.keepReadings = keepReadings;
+  options.bitsOnly = true;
+  return extractMesh(welded, positions, rounding_, key_, options);
 }
 
 Status Embedder::verify(const MeshProgress& progress) {

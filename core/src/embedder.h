@@ -63,7 +63,7 @@ class Embedder {
   [[nodiscard]] double misfit(const PlannedCell& cell, const double* const points[4]) const;
   [[nodiscard]] double misfitAfterMaps(const PlannedCell& cell) const;
   [[nodiscard]] bool plan(PlannedCell& cell, std::uint32_t piece);
-  [[nodiscard]] MarkedMesh result() const;
+  [[nodiscard]] MarkedMesh result();
 
   // embed_assign.cpp
   Status assign();
@@ -85,7 +85,10 @@ class Embedder {
   [[nodiscard]] std::vector<double> mapped(const AffineMap& map) const;
   Status verify(const MeshProgress& progress);
   bool check(const WeldedMesh& welded, const std::vector<double>& positions, bool mayRepair, std::uint64_t& salt);
-  [[nodiscard]] bool readsReordered() const;
+  [[nodiscard]] bool readsReordered();
+  [[nodiscard]] bool weldsAlike() const;
+  [[nodiscard]] Extraction read(const WeldedMesh& welded, const std::vector<double>& positions,
+                                bool keepReadings = false) const;
   [[nodiscard]] std::vector<std::uint32_t> badPieces(const Extraction& read) const;
   void repair(const std::vector<std::uint32_t>& bad, const Extraction& read, std::uint64_t& salt);
 
@@ -97,9 +100,9 @@ class Embedder {
   const std::vector<std::uint32_t> pieces_;
   const PairCodec codec_;
   WeldedMesh welded_;
+  std::vector<double>& positions_;        ///< of welded_: the original ones until search(), representable once written
   const double diagonal_;
   PadCache padded_;
-  std::vector<double> positions_;         ///< 3 per welded vertex, representable once written
   std::vector<PlannedCell> cells_;
   std::vector<std::uint32_t> cellOf_;     ///< per welded vertex: cell index or kNoVertex
   std::vector<std::uint32_t> copies_;     ///< per piece

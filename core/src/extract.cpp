@@ -19,10 +19,12 @@ constexpr double kTrustedPurity = 0.5;     // vertices of such cells are "used" 
 constexpr double kMaxRepeats = 4;          // identical readings (index, label, piece) count at most this often
 
 struct Candidate {
-  Quad quad;
-  Reading reading;
+  std::uint32_t vertices[4];  ///< a, b, c, d
+  double diagonalSum;
+  float sigma;                ///< what rounding may do to the ratios, standard deviation in digits
+  float purity;
   int kind;
-  double purity;
+  Reading reading;
 };
 
 class Extractor {
@@ -50,7 +52,7 @@ class Extractor {
       settle();
       if (!more) break;
     }
-    judge();
+    if (!options_.bitsOnly) judge();
     return std::move(out_);
   }
 
@@ -62,10 +64,13 @@ class Extractor {
     PurityTable table;
     bool reachedAny = previous == 0;
     forEachCoplanarSet(welded_, positions_, key_.params.k, rounding_, {units, cap}, used_, [&](const Quad& quad) {
-      const double gapUnits = quad.gap / rounding_.unit(quad, positions_.data());
+      const double unit = rounding_.unit(quad, positions_.data()), gapUnits = quad.gap / unit;
       if (gapUnits <= previous) return;
       if (gapUnits > units / 2) reachedAny = true;
-      Candidate c{quad, codec_.read(quad.ratioAC, quad.ratioBD), 0, 0};
+      const double digit = std::min(codec_.indexSlot().cellWidth(), codec_.pieceSlot().cellWidth());
+      const double sigma = 0.6 * unit / (std::min(quad.lengthAC, quad.lengthBD) * digit);
+      Candidate c{{quad.a, quad.b, quad.c, quad.d}, quad.diagonalSum(), static_cast<float>(sigma), 0, 0,
+                  codec_.read(quad.ratioAC, quad.ratioBD)};
       if (c.reading.state == ReadingState::outOfRange || c.reading.state == ReadingState::ambiguousOrder) return;
       if (!pad_.carries(c.reading.prefix1, c.reading.prefix2)) return;
       c.kind = PurityTable::kind(gapUnits, c.reading);
@@ -74,7 +79,7 @@ class Extractor {
     });
     table.estimate();
     if (previous == 0) excess_ = table.excess();
-    for (Candidate& c : candidates) c.purity = table.purity(c.kind);
+    for (Candidate& c : candidates) c.purity = static_cast<float>(table.purity(c.kind));
     accept(candidates);
     return reachedAny;
   }
@@ -82,13 +87,12 @@ class Extractor {
   // A vertex belongs to one cell. Where sets compete the purer kind wins, then the longer diagonals (the paper's rule).
   void accept(std::vector<Candidate>& candidates) {
     std::vector<std::uint8_t> claims(welded_.vertexCount(), 0);
-    const auto vertices = [](const Quad& q) { return std::array<std::uint32_t, 4>{q.a, q.b, q.c, q.d}; };
     const auto votes = [](const Candidate& c) {
       return c.reading.state == ReadingState::ok && c.purity >= kLeastPurity;
     };
     for (const Candidate& c : candidates)
       if (votes(c))
-        for (std::uint32_t v : vertices(c.quad)) claims[v] = static_cast<std::uint8_t>(std::min(claims[v] + 1, 2));
+        for (std::uint32_t v : c.vertices) claims[v] = static_cast<std::uint8_t>(std::min(claims[v] + 1, 2));
     std::vector<const Candidate*> contested;
     for (const Candidate& c : candidates) {
       if (!votes(c)) {
@@ -96,7 +100,7 @@ class Extractor {
         continue;
       }
       bool alone = true;
-      for (std::uint32_t v : vertices(c.quad)) alone = alone && claims[v] == 1;
+      for (std::uint32_t v : c.vertices) alone = alone && claims[v] == 1;
       if (alone)
         take(c);
       else
@@ -104,21 +108,21 @@ class Extractor {
     }
     std::sort(contested.begin(), contested.end(), [&](const Candidate* x, const Candidate* y) {
       if (x->purity != y->purity) return x->purity > y->purity;
-      if (x->quad.diagonalSum() != y->quad.diagonalSum()) return x->quad.diagonalSum() > y->quad.diagonalSum();
-      const auto p = vertices(x->quad), q = vertices(y->quad);
+      if (x->diagonalSum != y->diagonalSum) return x->diagonalSum > y->diagonalSum;
+      const auto &p = x->vertices, &q = y->vertices;
       for (int i = 0; i < 4; ++i)
         for (int k = 0; k < 3; ++k) {
           const double a = positions_[3 * std::size_t{p[i]} + k], b = positions_[3 * std::size_t{q[i]} + k];
           if (a != b) return a < b;
         }
-      return p < q;
+      return std::lexicographical_compare(p, p + 4, q, q + 4);
     });
     std::fill(claims.begin(), claims.end(), std::uint8_t{0});
     for (const Candidate* c : contested) {
       bool free = true;
-      for (std::uint32_t v : vertices(c->quad)) free = free && claims[v] == 0;
+      for (std::uint32_t v : c->vertices) free = free && claims[v] == 0;
       if (!free) continue;
-      for (std::uint32_t v : vertices(c->quad)) claims[v] = 1;
+      for (std::uint32_t v : c->vertices) claims[v] = 1;
       take(*c);
     }
   }
@@ -128,18 +132,15 @@ class Extractor {
     // Near the edge of its digit cell a reading may belong to the neighbour: the more so, the more rounding alone may
     // have moved it. z is the distance to the edge in standard deviations, the quartic a stand-in for the normal tail.
     const double off = std::max(std::fabs(r.residue1), std::fabs(r.residue2));
-    const double digit = std::min(codec_.indexSlot().cellWidth(), codec_.pieceSlot().cellWidth());
-    const double sigma = 0.6 * rounding_.unit(c.quad, positions_.data()) /
-                         (std::min(c.quad.lengthAC, c.quad.lengthBD) * digit);
-    const double z = 1 + (0.5 - off) / std::max(sigma, 1e-3);
-    const double sound = c.purity * (1 - 2 / (1 + z * z * z * z));
+    const double z = 1 + (0.5 - off) / std::max(double{c.sigma}, 1e-3);
+    const double sound = double{c.purity} * (1 - 2 / (1 + z * z * z * z));
     const double central = off <= 0.25 ? 1 : std::max(0.05, (0.5 - off) / 0.25);
     const double weight = exactLog((1 + sound) / (1 - sound)) * central;
-    accepted_.push_back({label(r), r.index, r.piece ^ pad_(r.index, r.prefix1, r.prefix2), static_cast<float>(c.purity),
+    accepted_.push_back({label(r), r.index, r.piece ^ pad_(r.index, r.prefix1, r.prefix2), c.purity,
                          static_cast<float>(weight)});
     if (c.purity >= kTrustedPurity) {
       if (used_.empty()) used_.assign(welded_.vertexCount(), 0);
-      for (std::uint32_t v : {c.quad.a, c.quad.b, c.quad.c, c.quad.d}) used_[v] = 1;
+      for (std::uint32_t v : c.vertices) used_[v] = 1;
     }
     keep(c, static_cast<float>(weight));
   }
@@ -151,7 +152,8 @@ class Extractor {
 
   void keep(const Candidate& c, float weight) {
     if (!options_.keepReadings) return;
-    out_.readings.push_back({{c.quad.a, c.quad.b, c.quad.c, c.quad.d}, c.reading, static_cast<float>(c.purity), weight});
+    out_.readings.push_back(
+        {{c.vertices[0], c.vertices[1], c.vertices[2], c.vertices[3]}, c.reading, c.purity, weight});
   }
 
   // Index and label in one word: both digit strings are below 10^9, so r1's digits and r2's prefix fit.

@@ -209,15 +209,15 @@ void oneSided(const Mesh& from, const BoxTree& tree, int samplesPerFace, double&
 
 }  // namespace
 
-double detail::hausdorffLocal(const Mesh& a, const Mesh& b, const WeldedMesh& welded) {
+double detail::hausdorffLocal(const Mesh& a, const std::vector<double>& b, const WeldedMesh& welded) {
   const FaceRings rings = faceRings(a, welded);
   double worst = 0;
-  LocalDistance(a, welded, rings, a.positions, b.positions, worst).run();
-  LocalDistance(a, welded, rings, b.positions, a.positions, worst).run();
+  LocalDistance(a, welded, rings, a.positions, b, worst).run();
+  LocalDistance(a, welded, rings, b, a.positions, worst).run();
   return std::sqrt(worst);
 }
 
-double hausdorffLocal(const Mesh& a, const Mesh& b) { return detail::hausdorffLocal(a, b, weld(a)); }
+double hausdorffLocal(const Mesh& a, const Mesh& b) { return detail::hausdorffLocal(a, b.positions, weld(a)); }
 
 double hausdorff(const Mesh& a, const Mesh& b, int samplesPerFace) {
   const BoxTree treeA(a), treeB(b);

@@ -47,7 +47,7 @@ std::vector<Point> vertexNormals(const Mesh& mesh, const std::vector<double>& po
   return normals;
 }
 
-void measureDisplacement(const Mesh& original, const Mesh& marked, double diagonal, Distortion& out) {
+void measureDisplacement(const Mesh& original, const std::vector<double>& marked, double diagonal, Distortion& out) {
   const std::vector<std::uint8_t> used = usedVertices(original);
   double count = 0, signal = 0, noise = 0, largest = 0;
   Point sum;
@@ -62,7 +62,7 @@ void measureDisplacement(const Mesh& original, const Mesh& marked, double diagon
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (!used[v]) continue;
     const Point p = pointAt(original.positions, v);
-    const double moved = squared(pointAt(marked.positions, v) - p);
+    const double moved = squared(pointAt(marked, v) - p);
     signal += squared(p - mean);
     noise += moved;
     largest = std::max(largest, moved);
@@ -74,10 +74,10 @@ void measureDisplacement(const Mesh& original, const Mesh& marked, double diagon
   }
 }
 
-void measureNormals(const Mesh& original, const Mesh& marked, const WeldedMesh& welded, Distortion& out) {
+void measureNormals(const Mesh& original, const std::vector<double>& marked, const WeldedMesh& welded, Distortion& out) {
   constexpr double kPi = 3.14159265358979323846;
   const std::vector<Point> before = vertexNormals(original, original.positions, welded);
-  const std::vector<Point> after = vertexNormals(original, marked.positions, welded);
+  const std::vector<Point> after = vertexNormals(original, marked, welded);
   double count = 0, squares = 0, sum = 0;
   for (std::size_t v = 0; v < before.size(); ++v) {
     if (!(squared(before[v]) > 0) || !(squared(after[v]) > 0)) continue;
@@ -96,11 +96,14 @@ void measureNormals(const Mesh& original, const Mesh& marked, const WeldedMesh& 
 }  // namespace
 
 Distortion distortion(const Mesh& original, const Mesh& marked) {
-  assert(original.positions.size() == marked.positions.size());
+  return distortion(original, marked.positions, weld(original));
+}
+
+Distortion distortion(const Mesh& original, const std::vector<double>& marked, const WeldedMesh& welded) {
+  assert(original.positions.size() == marked.size());
   Distortion out;
   const double diagonal = boundingDiagonal(original);
   measureDisplacement(original, marked, diagonal, out);
-  const WeldedMesh welded = weld(original);
   measureNormals(original, marked, welded, out);
   if (diagonal > 0) out.hausdorffRel = detail::hausdorffLocal(original, marked, welded) / diagonal;
   return out;

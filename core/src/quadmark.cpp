@@ -106,15 +106,14 @@ Result<EmbedResponse> embed(std::span<const std::uint8_t> file, const Resources&
   if (!marked) return marked.error();
   if (!tell(request.progress, "report", 0.95)) return cancelled();
 
+  const Distortion measured = distortion(mesh, marked->positions, marked->welded);
+  marked->welded = WeldedMesh{};  // not needed while the file is copied
+
   EmbedResponse response;
   auto patched = (*model)->patch(file, resources, marked->positions);
   if (!patched) return patched.error();
   response.file = std::move(*patched);
   const std::vector<std::string> warnings = embedWarnings(**model, *marked);
-  // The positions become a mesh again by exchange: two copies are all that is ever held.
-  Mesh after = mesh;
-  after.positions = std::move(marked->positions);
-  const Distortion measured = distortion(mesh, after);
   response.reportJson = formatReport(EmbedReport{request.key, *marked, measured, response.file.bytesChanged, warnings});
   tell(request.progress, "report", 1);
   return response;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "quadmark/adjacency.h"
 #include "quadmark/key.h"
 #include "quadmark/mesh.h"
 #include "quadmark/result.h"
@@ -32,6 +33,7 @@ struct MarkedMesh {
   std::uint32_t leastRepeats = 0;     ///< copies of the rarest piece
   std::uint32_t repairs = 0;          ///< sets broken and cells rewritten by the verification
   Guarantees guarantees;
+  WeldedMesh welded;                  ///< the mesh's connectivity, with the marked positions
 };
 
 /// Progress: stage name and share done; return false to cancel (fails with `aborted`).

@@ -51,6 +51,7 @@ struct Extraction {
 struct ExtractOptions {
   std::span<const std::uint8_t> reference;  ///< expected payload bits, empty for none
   bool keepReadings = false;
+  bool bitsOnly = false;                    ///< leave the verdict and its probabilities out
 };
 
 /// Reads a mesh.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "quadmark/adjacency.h"
 #include "quadmark/mesh.h"
 
 namespace quadmark {
@@ -27,6 +28,11 @@ struct Distortion {
 /// Compares two meshes with the same connectivity and vertex order; only the positions of `marked` are used. A mesh
 /// without faces gives zeros and infinite ratios. Cost: linear, about 1 microsecond per vertex.
 [[nodiscard]] Distortion distortion(const Mesh& original, const Mesh& marked);
+
+/// The same without a second copy of the connectivity.
+/// @param marked  3 per vertex of `original`.
+/// @param welded  weld(original); only its connectivity is used.
+[[nodiscard]] Distortion distortion(const Mesh& original, const std::vector<double>& marked, const WeldedMesh& welded);
 
 /// Two-sided Hausdorff distance in file units, in the manner of Metro (Cignoni et al. 1998) for meshes with the same
 /// connectivity: every vertex, edge midpoint and triangle centre (polygons are fanned) of one surface against the faces

@@ -37,8 +37,8 @@ Result<GltfContainer> openGltf(Bytes file) {
   for (std::uint64_t chunk = 0; at < length; ++chunk) {
     const std::string place = "GLB chunk " + std::to_string(chunk);
     if (length - at < kGlbChunkHeaderBytes) return badFile(place + ": the file ends inside the chunk's header");
-    const std::uint64_t chunkLength = load<std::uint32_t>(&file[at]);
-    const std::uint32_t type = load<std::uint32_t>(&file[at + 4]);
+    const std::uint64_t chunkLength = load<std::uint32_t>(file.data() + at);
+    const std::uint32_t type = load<std::uint32_t>(file.data() + at + 4);
     at += kGlbChunkHeaderBytes;
     if (chunkLength > length - at) {
       return badFile(place + ": " + std::to_string(chunkLength) + " bytes are claimed, " + std::to_string(length - at) +

@@ -21,6 +21,10 @@ void writeCoordinate(std::uint8_t* bytes, PlyType type, ByteOrder order, double 
   }
 }
 
+double coordinate(std::span<const double> positions, std::uint64_t vertex, int axis) {
+  return positions[static_cast<std::size_t>(3 * vertex) + static_cast<std::size_t>(axis)];
+}
+
 std::string spell(PlyType type, double value) {
   return type == PlyType::float32 ? formatShortest(static_cast<float>(value)) : formatShortest(value);
 }
@@ -57,7 +61,8 @@ Result<PatchedFile> PlyModel::patchBinary(Bytes file, std::span<const double> po
       if (const int axis = axisOf(axisProperty_, i); axis >= 0) {
         allowed.add(offset, element.rowBytes, width, element.count);
         for (std::uint64_t row = 0; row < element.count; ++row) {
-          writeCoordinate(&patched.bytes[offset + row * element.rowBytes], type, header_.order(), positions[3 * row + axis]);
+          writeCoordinate(patched.bytes.data() + offset + row * element.rowBytes, type, header_.order(),
+                          coordinate(positions, row, axis));
         }
       }
       offset += sizeBytes(element.properties[i].type);
@@ -73,7 +78,7 @@ Result<PatchedFile> PlyModel::patchBinary(Bytes file, std::span<const double> po
         const int axis = axisOf(axisProperty_, i);
         if (axis < 0) continue;
         allowed.add(at, width, width, 1);
-        writeCoordinate(&patched.bytes[at], type, header_.order(), positions[3 * row + axis]);
+        writeCoordinate(&patched.bytes[at], type, header_.order(), coordinate(positions, row, axis));
       }
     }
   }
@@ -102,9 +107,9 @@ Result<PatchedFile> PlyModel::patchText(Bytes file, std::span<const double> posi
       }
       double value = 0;
       if (!cursor.readFloating(property.type, value)) return notTheFile();
-      if (value == positions[3 * row + axis]) continue;
+      if (value == coordinate(positions, row, axis)) continue;
       const std::string_view before = cursor.lastText();
-      const std::string after = spell(property.type, positions[3 * row + axis]);
+      const std::string after = spell(property.type, coordinate(positions, row, axis));
       const std::size_t begin = cursor.position() - before.size();
       patched.bytes.insert(patched.bytes.end(), file.begin() + static_cast<std::ptrdiff_t>(copied),
                            file.begin() + static_cast<std::ptrdiff_t>(begin));
@@ -142,7 +147,7 @@ Status PlyModel::checkPatchedText(Bytes file, Bytes patched, std::span<const dou
       }
       double value = 0;
       before.word();
-      if (!after.readFloating(property.type, value) || value != positions[3 * row + axis]) return failed(row);
+      if (!after.readFloating(property.type, value) || value != coordinate(positions, row, axis)) return failed(row);
       if (!equalGap(before.position() - before.lastText().size(), after.position() - after.lastText().size())) {
         return failed(row);
       }

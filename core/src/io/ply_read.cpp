@@ -118,7 +118,7 @@ Status PlyModel::checkVertexElement() const {
 template <class Cursor>
 Status PlyModel::readVertices(Cursor& cursor, const PlyElement& element) {
   vertexBegin_ = cursor.position();
-  mesh_.positions.reserve(3 * element.count);
+  mesh_.positions.reserve(static_cast<std::size_t>(3 * element.count));
   const PlyType type = element.properties[axisProperty_[0]].type;
   if constexpr (std::is_same_v<Cursor, BinaryPlyCursor>) {
     if (!element.hasList) {
