@@ -49,7 +49,11 @@ export async function openPage(t, { context, url }, { path = '' } = {}) {
     if (['error', 'warning'].includes(message.type())) seen.trouble.push(`console: ${message.text()}`);
   });
   page.on('pageerror', (error) => seen.trouble.push(`exception: ${error.message}`));
-  page.on('requestfailed', (request) => seen.trouble.push(`failed: ${request.url()} ${request.failure()?.errorText}`));
+  page.on('requestfailed', (request) => {
+    const reason = request.failure()?.errorText;
+    // A reload breaks off what was still on its way; that is the test's doing, not the page's.
+    if (reason !== 'net::ERR_ABORTED') seen.trouble.push(`failed: ${request.url()} ${reason}`);
+  });
   const onRequest = (request) => seen.requests.push(request.url());
   const onResponse = (response) => {
     seen.headers.set(response.url(), response.headers());
@@ -113,11 +117,12 @@ export async function waitFor(page, ...states) {
 
 /** What a person can read now, by part. */
 export async function shown(page) {
-  const text = async (id) => ((await page.locator(`#${id}`).isVisible()) ? (await page.locator(`#${id}`).innerText()).trim() : null);
+  const text = async (id, part = '') => ((await page.locator(`#${id}`).isVisible()) ? (await page.locator(`#${id}${part}`).innerText()).trim() : null);
   return {
     state: await page.locator('#outcome').getAttribute('data-state'),
     verdict: await text('verdict-title'),
-    odds: await text('odds'),
+    odds: await text('odds', ' [aria-hidden]'),
+    spokenOdds: await text('odds', ' .visually-hidden'),
     title: await text('problem-title'),
     problem: await text('problem-text'),
     hint: await text('problem-hint'),

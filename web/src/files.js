@@ -4,7 +4,7 @@
 /** More than this in one drop is somebody's whole disk. */
 export const MAX_FILES = 2000;
 const SNIFF_BYTES = 4096;
-const MAX_JSON_BYTES = 256 * 2 ** 20;  // what is parsed here to tell a glTF from a key
+const MAX_JSON_BYTES = 32 * 2 ** 20;  // parsed here to tell a glTF from a key; larger ones go by their name
 
 /** @typedef {{ path: string, file: File }} Item  path: relative to what was dropped, with forward slashes */
 
@@ -61,7 +61,8 @@ async function readFolder(folder) {
 
 export const baseName = (path) => path.slice(path.lastIndexOf('/') + 1);
 
-function decoded(uri) {
+/** A URI of a glTF as a file's name. */
+export function decodedUri(uri) {
   try {
     return decodeURIComponent(uri);
   } catch {
@@ -88,7 +89,7 @@ async function classify({ file }) {
       if (json.quadmark !== undefined) return { kind: 'key' };
       if (json.asset !== undefined || json.buffers !== undefined) {
         const images = Array.isArray(json.images) ? json.images : [];
-        return { kind: 'model', textures: images.map((image) => image?.uri).filter((uri) => typeof uri === 'string').map(decoded) };
+        return { kind: 'model', textures: images.map((image) => image?.uri).filter((uri) => typeof uri === 'string').map(decodedUri) };
       }
     } catch {
       // Broken JSON: by name.
@@ -137,11 +138,19 @@ export async function sortItems(items) {
   return { model, key, reference, parts, notices };
 }
 
-/** Sentences about files that can be of no use: neither a slot's nor a buffer of a glTF. */
-export function noticesOnStrangers(parts, model) {
-  if (model && !/\.(glb|ply)$/i.test(model.path)) return [];
-  return parts.filter(({ path }) => !/\.bin$/i.test(path) && !path.includes('/'))
-    .map(({ path }) => `${path} was left aside: it is neither a model (GLB, glTF, PLY), nor a key file, nor a PNG picture.`);
+/**
+ * Tells files that may be buffers of a glTF from those that are of no use.
+ * @param model  the model of the same drop, if any
+ * @return {{ parts: Item[], notices: string[] }}  notices: a sentence on each useless file that did not come in a folder
+ */
+export function splitStrangers(items, model) {
+  if (model && !/\.(glb|ply)$/i.test(model.path)) return { parts: items, notices: [] };
+  const mayBePart = ({ path }) => /\.bin$/i.test(path);
+  return {
+    parts: items.filter(mayBePart),
+    notices: items.filter((item) => !mayBePart(item) && !item.path.includes('/'))
+      .map(({ path }) => `${path} was left aside: it is neither a model (GLB, glTF, PLY), nor a key file, nor a PNG picture.`),
+  };
 }
 
 /**
@@ -151,7 +160,7 @@ export function noticesOnStrangers(parts, model) {
  * @param {Item[]} parts
  */
 export function findPart(uri, modelPath, parts) {
-  const wanted = decoded(uri).replace(/^(\.\/)+/, '');
+  const wanted = decodedUri(uri).replace(/^(\.\/)+/, '');
   const folder = modelPath.slice(0, modelPath.lastIndexOf('/') + 1);
   const exact = parts.find(({ path }) => path === folder + wanted);
   if (exact) return exact;

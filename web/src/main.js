@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Wires the page: files go into three slots; as soon as there are a model and a key, the detector checks them.
 import { Detector } from './detector.js';
-import { baseName, itemsOfDrop, itemsOfInput, noticesOnStrangers, sortItems } from './files.js';
+import { baseName, itemsOfDrop, itemsOfInput, sortItems, splitStrangers } from './files.js';
 import { showIdle, showMissing, showProblem, showProgress, showResult, showWorking } from './outcome_view.js';
 import { sizeWords } from './words.js';
 
@@ -77,21 +77,20 @@ async function check() {
 /** Takes files in whose kind is found by looking at them. */
 async function take(items) {
   if (items.length === 0) return;
-  const { model, key, reference, parts, notices } = await sortItems(items);
+  const { model, key, reference, parts: others, notices } = await sortItems(items);
+  const { parts, notices: strangers } = splitStrangers(others, model);
   if (model) {
     // Buffers that came before their glTF stay; those of another model go.
     given.parts = given.model ? parts : [...given.parts, ...parts];
     given.model = model;
   } else {
-    given.parts.push(...parts.filter(({ path }) => /\.bin$/i.test(path) || given.model));
+    given.parts.push(...parts);
   }
   given.key = key ?? given.key;
   given.reference = reference ?? given.reference;
-  const strangers = noticesOnStrangers(parts, model);
   showNotices([...notices, ...strangers]);
-  const useful = model || key || reference || parts.length > strangers.length;
   showSlots();
-  if (useful) await check();
+  if (model || key || reference || parts.length > 0) await check();
 }
 
 /** Puts the first chosen file into a slot, whatever it looks like; reading it says what is wrong. */

@@ -65,16 +65,21 @@ function showSentences({ title, text, hint }, state) {
 export const showProblem = (problem, names) => showSentences(problemWords(problem, names), 'problem');
 export const showMissing = (uris, modelName) => showSentences(missingWords(uris, modelName), 'missing');
 
-function odds(falsePositive) {
+/** "1 in 10^23" for the eye, "to the power of" for the ear. */
+function showOdds(falsePositive) {
   const value = oneIn(falsePositive);
-  if (!value) return [document.createTextNode('No better than chance')];
-  const parts = [document.createTextNode(value.text)];
-  if (value.exponent !== null) {
+  $('odds-label').textContent = value ? 'False-alarm probability, at most' : 'Agreement with this key';
+  const eye = document.createElement('span'), ear = document.createElement('span');
+  eye.setAttribute('aria-hidden', 'true');
+  eye.textContent = value?.text ?? 'No better than chance';
+  if (value && value.exponent !== null) {
     const power = document.createElement('sup');
     power.textContent = value.exponent;
-    parts.push(power);
+    eye.append(power);
   }
-  return parts;
+  ear.className = 'visually-hidden';
+  ear.textContent = oneInSpoken(falsePositive);
+  $('odds').replaceChildren(eye, ear);
 }
 
 function picture(id, png, alt) {
@@ -99,14 +104,20 @@ function showPictures(result) {
   const size = `${image.width} by ${image.height} pixels`;
   $('pictures').classList.toggle('of-id', isId);
   $('image-figure').hidden = isId;
-  picture('confidence', image.confidencePng,
-    `Confidence per ${isId ? 'bit' : 'pixel'}, white is certain; ${percent(result.averageConfidence)} on average`);
+  // The confidence is that of a mark which is there: beside noise it would claim a certainty that nothing has.
+  const each = isId ? 'bit' : 'pixel';
+  const none = verdict === 'none';
+  $('confidence-figure').hidden = none;
+  $('confidence-title').textContent = `How sure each ${each} is`;
+  $('confidence-caption').textContent = `${percent(result.averageConfidence)} on average`;
+  picture('confidence', image.confidencePng, `Confidence per ${each}, white is certain; ${percent(result.averageConfidence)} on average`);
   if (!isId) {
-    picture('image', image.png, verdict === 'none' ? `What this key reads without a mark, ${size}` : `The extracted picture, ${size}`);
+    picture('image', image.png, none ? `What this key reads without a mark, ${size}` : `The extracted picture, ${size}`);
     const left = unread > 0 ? `; ${pixels(unread)} could not be read (grey)` : '';
-    $('image-caption').textContent = verdict === 'none' ? 'is noise: there is no mark to read.' : `${image.width} × ${image.height}${left}`;
+    $('image-caption').textContent = none ? 'is noise: there is no mark to read.' : `${image.width} × ${image.height}${left}`;
   }
   $('reference-figure').hidden = !reference || isId;
+  $('pictures').classList.toggle('with-reference', Boolean(reference) && !isId);
   if (reference && !isId) {
     picture('reference', reference.png, `Your reference, ${size}`);
     const wrong = differing(image, reference);
@@ -123,7 +134,7 @@ function showFacts(result) {
     ['Cells that carry the reading', whole(report.cells)],
     ['Pieces read', whole(report.piecesRead)],
     ['Pixels not read', `${whole(countOnes(image.erased))} of ${whole(image.bits.length)}`],
-    ['Average confidence', percent(result.averageConfidence)],
+    ...(result.verdict === 'none' ? [] : [['Average confidence', percent(result.averageConfidence)]]),
     ...(report.ber === undefined ? [] : [['Wrong bits against the reference', percent(report.ber)]]),
     ['False-positive probability, at most', result.falsePositive.toExponential(2)],
     ['Time', `${(result.millis / 1000).toFixed(2)} s`],
@@ -145,8 +156,7 @@ export function showResult(result, names) {
   $('verdict-label').textContent = words.label;
   $('verdict-title').textContent = words.title;
   $('verdict-files').textContent = [names.model, names.key, result.owner && `key of ${result.owner}`].filter(Boolean).join(' · ');
-  $('odds').replaceChildren(...odds(result.falsePositive));
-  $('odds').setAttribute('aria-label', oneInSpoken(result.falsePositive));
+  showOdds(result.falsePositive);
   $('odds-meaning').textContent = words.meaning;
   $('found-id').hidden = result.id === null;
   $('id-text').textContent = result.id ?? '';
@@ -166,5 +176,5 @@ export function showResult(result, names) {
   $('save-report').href = urlOf(`${JSON.stringify(result.report, null, 2)}\n`, 'application/json');
   $('save-report').download = `${stem}.report.json`;
   show('result', result.verdict);
-  announce(`${words.label}: ${words.title} Probability of a false alarm: ${oneInSpoken(result.falsePositive)}.`);
+  announce(`${words.label}: ${words.title} ${$('odds-label').textContent}: ${oneInSpoken(result.falsePositive)}.`);
 }

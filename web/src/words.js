@@ -43,20 +43,20 @@ export function verdictWords({ verdict, falsePositive }) {
   const words = {
     match: {
       title: 'This model carries the mark of this key.',
-      meaning: 'At most this often would a model without the mark, or a wrong key, agree this well by accident. '
+      meaning: 'A model without this mark, or a wrong key, would agree this well by accident at most this often. '
         + `Anything rarer than 1 in ${count.format(MATCH_ONE_IN)} counts as a match.`,
     },
     none: {
       title: 'No mark of this key was found.',
       meaning: rare
-        ? 'So much agreement comes up by accident up to this often, which is too often to mean anything. Either the model '
+        ? 'Agreement like this may come up by accident this often, which is too often to mean anything. Either the model '
           + 'was not marked with this key, or the mark did not survive.'
         : 'What this key reads here agrees no better than accident would. Either the model was not marked with this key, '
           + 'or the mark did not survive.',
     },
     inconclusive: {
       title: 'There are traces of this mark, but too few to be sure.',
-      meaning: `Accident alone does this up to this often; a match needs 1 in ${count.format(MATCH_ONE_IN)} or rarer. `
+      meaning: `Agreement like this may come up by accident this often; a match needs 1 in ${count.format(MATCH_ONE_IN)} or rarer. `
         + 'A more complete copy of the model, or the reference picture, may decide it.',
     },
   };

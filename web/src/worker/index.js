@@ -3,10 +3,10 @@
 //   in   { model: Item, key: File, reference: File | null, parts: Item[] }
 //   out  { type: 'progress', stage, done }          any number of times, then one of
 //        { type: 'result', ... }                    see check()
-//        { type: 'missing', uris }                  external buffers that were not given
+//        { type: 'missing', uris }                  external buffers that were not given, as file names
 //        { type: 'problem', about, code, message }  about: "model", "key", "reference" or "page"
 import { QuadmarkError, decodeImage, encodeImage, externalUris, extract, load, memoryBytes, parseKey, unload } from 'quadmark';
-import { baseName, findPart } from '../files.js';
+import { baseName, decodedUri, findPart } from '../files.js';
 
 /** A larger file than this cannot be held beside its mesh in the module's 4 GB. */
 const MAX_FILE_BYTES = 1.5 * 2 ** 30;
@@ -48,11 +48,11 @@ function progress(stage, done) {
   postMessage({ type: 'progress', stage, done });
 }
 
-/** The pictures a glTF's buffers are in: Map of URI to bytes; or the URIs that nothing was given for. */
+/** The external buffers of a glTF as a Map of URI to bytes, or the names of those that nothing was given for. */
 async function openResources(model, bytes, parts) {
   const uris = [...new Set(await attempt('model', externalUris(bytes)))];
   const found = uris.map((uri) => [uri, findPart(uri, model.path, parts)]);
-  const missing = found.filter(([, part]) => !part).map(([uri]) => uri);
+  const missing = found.filter(([, part]) => !part).map(([uri]) => decodedUri(uri));
   const resources = new Map();
   if (missing.length === 0) {
     for (const [uri, part] of found) resources.set(uri, await readFile('model', part.file));
