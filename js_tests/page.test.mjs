@@ -143,7 +143,7 @@ test('a wrong key and an unmarked model both read as no mark', async (t) => {
     const { verdict, odds } = await shown(page);
     assert.equal(verdict, 'No mark of this key was found.', name);
     assert.doesNotMatch(odds, /million|10\s*\d\d/, name);
-    assert.match(await page.locator('#image-caption').innerText(), /is noise/);
+    assert.match(await page.locator('#image-caption').innerText(), /shows noise/);
     assert.equal(await page.locator('#confidence').isVisible(), false, 'no certainty is shown beside noise');
     await screenshot(page, `06-${name}`);
   }

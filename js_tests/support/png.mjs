@@ -3,7 +3,7 @@
 // Writes 8-bit grey; reads grey of 1 or 8 bits with any filter.
 import { crc32 as zlibCrc32, deflateSync, inflateSync } from 'node:zlib';
 
-const SIGNATURE = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
+export const SIGNATURE = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
 
 function crc32(bytes) {
   if (zlibCrc32) return zlibCrc32(bytes);
@@ -15,7 +15,7 @@ function crc32(bytes) {
   return ~crc >>> 0;
 }
 
-function chunk(type, data) {
+export function chunk(type, data) {
   const body = Buffer.concat([Buffer.from(type, 'latin1'), data]);
   const result = Buffer.alloc(body.length + 8);
   result.writeUInt32BE(data.length, 0);

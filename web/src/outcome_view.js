@@ -114,7 +114,7 @@ function showPictures(result) {
   if (!isId) {
     picture('image', image.png, none ? `What this key reads without a mark, ${size}` : `The extracted picture, ${size}`);
     const left = unread > 0 ? `; ${pixels(unread)} could not be read (grey)` : '';
-    $('image-caption').textContent = none ? 'is noise: there is no mark to read.' : `${image.width} × ${image.height}${left}`;
+    $('image-caption').textContent = none ? 'shows noise; grey pixels could not be read.' : `${image.width} × ${image.height}${left}`;
   }
   $('reference-figure').hidden = !reference || isId;
   $('pictures').classList.toggle('with-reference', Boolean(reference) && !isId);
