@@ -25,9 +25,14 @@ struct Named {
 };
 
 std::vector<Named> variedMeshes() {
-  return {{"sculpture", sculpture(1500)}, {"part", machinedPart(1500)},    {"polygonMix", polygonMix(1)},
-          {"seamed", seamed(1)},          {"nonManifold", nonManifold()},  {"bumpyGrid", bumpyGrid(20, 20, 1)},
-          {"fan", fan(40)},               {"quadSphere", quadSphere(3)}};
+  return {{"sculpture", sculpture(1500)},
+          {"part", machinedPart(1500)},
+          {"polygonMix", polygonMix(1)},
+          {"seamed", seamed(1)},
+          {"nonManifold", nonManifold()},
+          {"bumpyGrid", bumpyGrid(20, 20, 1)},
+          {"fan", fan(40)},
+          {"quadSphere", quadSphere(3)}};
 }
 
 /// Every attack once, at a middling strength.
@@ -85,7 +90,8 @@ TEST(Attack, KeepsTwinsTogether) {
     if (attacked.vertexCount() == mesh.vertexCount() && spec.kind != "reorder") {
       std::map<std::uint32_t, Position> firstTwin;
       for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
-        ASSERT_EQ(firstTwin.emplace(welded.weldedOf[v], positionOf(attacked, v)).first->second, positionOf(attacked, v));
+        ASSERT_EQ(firstTwin.emplace(welded.weldedOf[v], positionOf(attacked, v)).first->second,
+                  positionOf(attacked, v));
     }
     // Whatever moved or went: the surface has no crack, welded edges have two faces (or border a crop).
     if (spec.kind == "crop") continue;
@@ -156,7 +162,8 @@ TEST(Affine, PreservesRatiosOnALine) {
   mesh.precision = Precision::float64;
   const Mesh moved = affine(mesh, *paperAffine("CB"));
   for (std::size_t i = 0; i < 3; ++i)
-    EXPECT_NEAR(moved.positions[6 + i] - moved.positions[i], 0.3 * (moved.positions[3 + i] - moved.positions[i]), 1e-14);
+    EXPECT_NEAR(moved.positions[6 + i] - moved.positions[i], 0.3 * (moved.positions[3 + i] - moved.positions[i]),
+                1e-14);
 }
 
 TEST(Reorder, IsAPermutationOfTheSameSurface) {
@@ -165,8 +172,7 @@ TEST(Reorder, IsAPermutationOfTheSameSurface) {
     VertexOrigin origin;
     const Mesh mixed = reorder(model.mesh, 7, &origin);
     ASSERT_EQ(origin.size(), model.mesh.vertexCount());
-    for (std::size_t v = 0; v < origin.size(); ++v)
-      ASSERT_EQ(positionOf(mixed, v), positionOf(model.mesh, origin[v]));
+    for (std::size_t v = 0; v < origin.size(); ++v) ASSERT_EQ(positionOf(mixed, v), positionOf(model.mesh, origin[v]));
     EXPECT_EQ(std::set<std::uint32_t>(origin.begin(), origin.end()).size(), origin.size());
     EXPECT_EQ(surfaceOf(mixed), surfaceOf(model.mesh));
     EXPECT_NE(mixed.faceVertices, model.mesh.faceVertices);
@@ -283,7 +289,8 @@ TEST(Quantize, LandsOnTheGrid) {
 TEST(Quantize, LeavesAFlatAxisAlone) {
   const Mesh flat = flatGrid(5, 5);
   EXPECT_EQ(quantize(flat, 2, Grid::perAxis).positions, quantize(flat, 2, Grid::common).positions);
-  for (std::size_t v = 0; v < flat.vertexCount(); ++v) EXPECT_EQ(quantize(flat, 3, Grid::perAxis).positions[3 * v + 2], 0);
+  for (std::size_t v = 0; v < flat.vertexCount(); ++v)
+    EXPECT_EQ(quantize(flat, 3, Grid::perAxis).positions[3 * v + 2], 0);
 }
 
 TEST(Smooth, MovesTowardsTheMeanOfTheNeighbours) {
@@ -323,8 +330,10 @@ TEST(Deform, IsSmooth) {
   for (const auto& [edge, use] : edgeUses(mesh)) {
     double before = 0, after = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double d = mesh.positions[3 * std::size_t{edge.first} + axis] - mesh.positions[3 * std::size_t{edge.second} + axis];
-      const double e = bent.positions[3 * std::size_t{edge.first} + axis] - bent.positions[3 * std::size_t{edge.second} + axis];
+      const double d =
+          mesh.positions[3 * std::size_t{edge.first} + axis] - mesh.positions[3 * std::size_t{edge.second} + axis];
+      const double e =
+          bent.positions[3 * std::size_t{edge.first} + axis] - bent.positions[3 * std::size_t{edge.second} + axis];
       before += d * d;
       after += e * e;
     }

@@ -22,18 +22,15 @@ struct Named {
 };
 
 std::vector<Named> closedSpheres() {
-  return {{"cube", cube()},
-          {"quadSphere", quadSphere(3)},
-          {"icosphere", icosphere(3)},
-          {"polygonMix", polygonMix(1)}};
+  return {{"cube", cube()}, {"quadSphere", quadSphere(3)}, {"icosphere", icosphere(3)}, {"polygonMix", polygonMix(1)}};
 }
 
 std::vector<Named> allFixtures() {
   std::vector<Named> all = closedSpheres();
-  for (Named more : {Named{"sculpture", sculpture(2000)}, Named{"part", machinedPart(2000)},
-                     Named{"bumpyGrid", bumpyGrid(9, 7, 1)}, Named{"flatGrid", flatGrid(9, 7)}, Named{"fan", fan(60)},
-                     Named{"nonManifold", nonManifold()}, Named{"twoComponents", twoComponents(1)},
-                     Named{"seamed", seamed(1)}})
+  for (Named more :
+       {Named{"sculpture", sculpture(2000)}, Named{"part", machinedPart(2000)}, Named{"bumpyGrid", bumpyGrid(9, 7, 1)},
+        Named{"flatGrid", flatGrid(9, 7)}, Named{"fan", fan(60)}, Named{"nonManifold", nonManifold()},
+        Named{"twoComponents", twoComponents(1)}, Named{"seamed", seamed(1)}})
     all.push_back(std::move(more));
   return all;
 }
@@ -53,7 +50,8 @@ std::vector<double> flatness(const Mesh& mesh) {
     const std::uint32_t others[3] = {edge.second, tips[0], tips[1]};
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t axis = 0; axis < 3; ++axis)
-        d[i][axis] = mesh.positions[3 * std::size_t{others[i]} + axis] - mesh.positions[3 * std::size_t{edge.first} + axis];
+        d[i][axis] =
+            mesh.positions[3 * std::size_t{others[i]} + axis] - mesh.positions[3 * std::size_t{edge.first} + axis];
     const double volume = d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) +
                           d[0][1] * (d[1][2] * d[2][0] - d[1][0] * d[2][2]) +
                           d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);

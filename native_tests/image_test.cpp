@@ -71,7 +71,9 @@ Bytes file(const Png& png, const Bytes& idat) {
   return out;
 }
 
-Bytes file(const Png& png) { return file(png, stored(png.rows)); }
+Bytes file(const Png& png) {
+  return file(png, stored(png.rows));
+}
 
 Bytes decoded(const Png& png, double threshold = 0.5) {
   const Result<BitImage> image = decodePng(file(png), {threshold});
@@ -87,7 +89,8 @@ BitImage randomImage(std::uint32_t width, std::uint32_t height, std::uint64_t se
 }
 
 TEST(Image, ComesBackFromItsOwnPng) {
-  const std::uint32_t sizes[][2] = {{24, 24}, {90, 90}, {7, 3}, {1, 2}, {8, 1}, {9, 1}, {64, 1}, {1024, 1}, {1, 1024}, {1024, 1024}};
+  const std::uint32_t sizes[][2] = {{24, 24}, {90, 90}, {7, 3},    {1, 2},    {8, 1},
+                                    {9, 1},   {64, 1},  {1024, 1}, {1, 1024}, {1024, 1024}};
   for (const auto& size : sizes) {
     SCOPED_TRACE(std::to_string(size[0]) + " x " + std::to_string(size[1]));
     const BitImage image = randomImage(size[0], size[1], size[0] * 31 + size[1]);
@@ -101,8 +104,8 @@ TEST(Image, ComesBackFromItsOwnPng) {
 
 TEST(Image, IsWrittenWithOneBitPerPixel) {
   const Bytes png = encodePng(randomImage(90, 90, 1));
-  EXPECT_EQ(png[24], 1);   // bit depth
-  EXPECT_EQ(png[25], 0);   // grey
+  EXPECT_EQ(png[24], 1);  // bit depth
+  EXPECT_EQ(png[25], 0);  // grey
   EXPECT_LT(png.size(), 90u * 13 + 100);
   EXPECT_LT(encodePng({90, 90, Bytes(8100, 0)}).size(), 150u);
 }
@@ -241,9 +244,9 @@ TEST(Image, RefusesSizesItCannotUse) {
 }
 
 TEST(Image, RefusesBrokenPixels) {
-  expectError(file({8, 8, 8, 0, 0, Bytes(20, 0), {}, {}}), ErrorCode::badImage, "decoded");      // too few
-  expectError(file({8, 8, 3, 0, 0, Bytes(72, 0), {}, {}}), ErrorCode::badImage, "decoded");      // depth 3
-  expectError(file({8, 8, 8, 3, 0, Bytes(72, 0), {}, {}}), ErrorCode::badImage, "decoded");      // no palette
+  expectError(file({8, 8, 8, 0, 0, Bytes(20, 0), {}, {}}), ErrorCode::badImage, "decoded");  // too few
+  expectError(file({8, 8, 3, 0, 0, Bytes(72, 0), {}, {}}), ErrorCode::badImage, "decoded");  // depth 3
+  expectError(file({8, 8, 8, 3, 0, Bytes(72, 0), {}, {}}), ErrorCode::badImage, "decoded");  // no palette
   expectError(file({8, 8, 8, 0, 0, {9, 0}, {}, {}}, {0x78, 0x01, 0xff}), ErrorCode::badImage, "decoded");
 }
 
@@ -261,13 +264,13 @@ TEST(Image, RefusesADeflateBomb) {
       count = 0;
     }
   };
-  bits(0b011, 3);         // last block, fixed codes
-  bits(0b00001100, 8);    // literal 0, code 00110000 from its high bit
+  bits(0b011, 3);       // last block, fixed codes
+  bits(0b00001100, 8);  // literal 0, code 00110000 from its high bit
   for (int i = 0; i < 400000; ++i) {
     bits(0b10100011, 8);  // length 258, code 11000101
     bits(0, 5);           // distance 1
   }
-  bits(0, 7);             // end of block
+  bits(0, 7);  // end of block
   bits(0, 7);
   expectError(file({8, 8, 8, 0, 0, {}, {}, {}}, packed), ErrorCode::badImage, "decoded");
 }

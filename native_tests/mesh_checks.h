@@ -26,8 +26,10 @@ inline EdgeUses edgeUses(const Mesh& mesh) {
     for (std::size_t c = mesh.faceBegin(f); c < mesh.faceEnd(f); ++c) {
       const std::uint32_t a = mesh.faceVertices[c];
       const std::uint32_t b = mesh.faceVertices[c + 1 == mesh.faceEnd(f) ? mesh.faceBegin(f) : c + 1];
-      if (a < b) ++uses[{a, b}].up;
-      else ++uses[{b, a}].down;
+      if (a < b)
+        ++uses[{a, b}].up;
+      else
+        ++uses[{b, a}].down;
     }
   return uses;
 }
@@ -42,7 +44,8 @@ inline bool isClosedAndOriented(const Mesh& mesh) {
 /// Vertices in use - edges + faces: 2 for a sphere, 0 for a torus.
 inline long eulerCharacteristic(const Mesh& mesh) {
   const std::set<std::uint32_t> used(mesh.faceVertices.begin(), mesh.faceVertices.end());
-  return static_cast<long>(used.size()) - static_cast<long>(edgeUses(mesh).size()) + static_cast<long>(mesh.faceCount());
+  return static_cast<long>(used.size()) - static_cast<long>(edgeUses(mesh).size()) +
+         static_cast<long>(mesh.faceCount());
 }
 
 inline std::vector<int> valences(const Mesh& mesh) {
@@ -59,8 +62,8 @@ inline double signedVolume(const Mesh& mesh) {
       const double* p = &mesh.positions[3 * std::size_t{mesh.faceVertices[mesh.faceBegin(f)]}];
       const double* q = &mesh.positions[3 * std::size_t{mesh.faceVertices[c - 1]}];
       const double* r = &mesh.positions[3 * std::size_t{mesh.faceVertices[c]}];
-      sum += p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
-             p[2] * (q[0] * r[1] - q[1] * r[0]);
+      sum +=
+          p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
     }
   return sum / 6;
 }

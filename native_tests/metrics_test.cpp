@@ -148,9 +148,9 @@ TEST(Hausdorff, AgreesWithBruteForce) {
     for (std::uint32_t v = 0; v < from.vertexCount(); ++v) {
       double best = kInfinity;
       for (std::size_t f = 0; f < to.faceCount(); ++f)
-        best = std::min(best, detail::squaredToTriangle(at(from, v), at(to, to.faceVertices[3 * f]),
-                                                        at(to, to.faceVertices[3 * f + 1]),
-                                                        at(to, to.faceVertices[3 * f + 2])));
+        best = std::min(
+            best, detail::squaredToTriangle(at(from, v), at(to, to.faceVertices[3 * f]),
+                                            at(to, to.faceVertices[3 * f + 1]), at(to, to.faceVertices[3 * f + 2])));
       worst = std::max(worst, best);
     }
     return std::sqrt(worst);

@@ -16,7 +16,9 @@ namespace {
 using namespace lab;
 using namespace testing;
 
-double relativeHausdorff(const Mesh& a, const Mesh& b) { return hausdorff(a, b) / boundingDiagonal(a); }
+double relativeHausdorff(const Mesh& a, const Mesh& b) {
+  return hausdorff(a, b) / boundingDiagonal(a);
+}
 
 std::size_t borderEdges(const Mesh& mesh) {
   std::size_t count = 0;
@@ -78,7 +80,8 @@ TEST(SimplifyQem, ReachesItsTargetAndStaysClosed) {
 
 TEST(SimplifyQem, StaysNearTheSurface) {
   const Mesh mesh = sculpture(20000);
-  const double half = relativeHausdorff(mesh, simplifyQem(mesh, 0.5)), tenth = relativeHausdorff(mesh, simplifyQem(mesh, 0.1));
+  const double half = relativeHausdorff(mesh, simplifyQem(mesh, 0.5)),
+               tenth = relativeHausdorff(mesh, simplifyQem(mesh, 0.1));
   EXPECT_GT(half, 0);
   EXPECT_LT(half, 0.002);
   EXPECT_LT(half, tenth);
@@ -129,7 +132,8 @@ TEST(SimplifyQem, HoldsABumpyBorder) {
 TEST(SimplifyQem, TurnsNoFaceOver) {
   const Mesh grid = flatGrid(25, 25), simple = simplifyQem(grid, 0.2);
   for (std::size_t f = 0; f < simple.faceCount(); ++f) {
-    const Position a = positionOf(simple, simple.faceVertices[3 * f]), b = positionOf(simple, simple.faceVertices[3 * f + 1]),
+    const Position a = positionOf(simple, simple.faceVertices[3 * f]),
+                   b = positionOf(simple, simple.faceVertices[3 * f + 1]),
                    c = positionOf(simple, simple.faceVertices[3 * f + 2]);
     EXPECT_GT((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]), 0);
   }

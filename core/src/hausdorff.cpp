@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Hausdorff distances after P. Cignoni, C. Rocchini, R. Scopigno, "Metro: measuring error on simplified surfaces", 1998.
+// Hausdorff distances after P. Cignoni, C. Rocchini, R. Scopigno, "Metro: measuring error on simplified surfaces",
+// 1998.
 //
 // Both keep only the largest distance found so far: a sample is done with as soon as any triangle is known to be no
 // farther than that, which is the first one tried for nearly all samples.
-// Tried for hausdorff(): a uniform grid over the triangles, as in Metro. Models of which half is missing make the search
-// walk through empty cells; the box tree answers those in microseconds too.
+// Tried for hausdorff(): a uniform grid over the triangles, as in Metro. Models of which half is missing make the
+// search walk through empty cells; the box tree answers those in microseconds too.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -113,7 +114,9 @@ class BoxTree {
 
  private:
   static constexpr std::uint32_t kLeaf = 8;
-  struct Triangle { std::uint32_t a, b, c; };
+  struct Triangle {
+    std::uint32_t a, b, c;
+  };
   struct Node {
     double low[3], high[3];
     std::uint32_t begin, end, right;  // right == 0: a leaf; the left child follows its parent
@@ -155,7 +158,8 @@ class BoxTree {
 
   [[nodiscard]] double distanceTo(std::uint32_t triangle, const Point& p) const {
     const Triangle& t = triangles_[triangle];
-    return squaredToTriangle(p, pointAt(mesh_.positions, t.a), pointAt(mesh_.positions, t.b), pointAt(mesh_.positions, t.c));
+    return squaredToTriangle(p, pointAt(mesh_.positions, t.a), pointAt(mesh_.positions, t.b),
+                             pointAt(mesh_.positions, t.c));
   }
 
   // Depth is log2 of the triangle count: the halves are equal.
@@ -217,7 +221,9 @@ double detail::hausdorffLocal(const Mesh& a, const std::vector<double>& b, const
   return std::sqrt(worst);
 }
 
-double hausdorffLocal(const Mesh& a, const Mesh& b) { return detail::hausdorffLocal(a, b.positions, weld(a)); }
+double hausdorffLocal(const Mesh& a, const Mesh& b) {
+  return detail::hausdorffLocal(a, b.positions, weld(a));
+}
 
 double hausdorff(const Mesh& a, const Mesh& b, int samplesPerFace) {
   const BoxTree treeA(a), treeB(b);

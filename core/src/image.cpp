@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PNG (W3C recommendation, second edition) by stb_image behind our own check of the chunks: stb looks at no checksum and
-// takes a truncated file for a complete one where the pixels happen to suffice.
+// PNG (W3C recommendation, second edition) by stb_image behind our own check of the chunks: stb looks at no checksum
+// and takes a truncated file for a complete one where the pixels happen to suffice.
 #include "quadmark/image.h"
 
 #include <algorithm>
@@ -36,7 +36,9 @@ std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
   return ~crc;
 }
 
-Error badImage(const std::string& message) { return {ErrorCode::badImage, "PNG: " + message}; }
+Error badImage(const std::string& message) {
+  return {ErrorCode::badImage, "PNG: " + message};
+}
 
 /// Signature, header, every chunk's length and checksum, up to IEND.
 Status checkChunks(std::span<const std::uint8_t> png) {

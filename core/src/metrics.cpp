@@ -74,7 +74,8 @@ void measureDisplacement(const Mesh& original, const std::vector<double>& marked
   }
 }
 
-void measureNormals(const Mesh& original, const std::vector<double>& marked, const WeldedMesh& welded, Distortion& out) {
+void measureNormals(const Mesh& original, const std::vector<double>& marked, const WeldedMesh& welded,
+                    Distortion& out) {
   constexpr double kPi = 3.14159265358979323846;
   const std::vector<Point> before = vertexNormals(original, original.positions, welded);
   const std::vector<Point> after = vertexNormals(original, marked, welded);
@@ -115,8 +116,10 @@ double bitErrorRate(std::span<const std::uint8_t> expected, std::span<const std:
   if (expected.empty()) return 0;
   std::size_t halves = 0;  // in half errors, so that the sum stays exact
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    if (!erased.empty() && erased[i] != 0) halves += 1;
-    else if ((expected[i] != 0) != (read[i] != 0)) halves += 2;
+    if (!erased.empty() && erased[i] != 0)
+      halves += 1;
+    else if ((expected[i] != 0) != (read[i] != 0))
+      halves += 2;
   }
   return 0.5 * static_cast<double>(halves) / static_cast<double>(expected.size());
 }

@@ -9,14 +9,24 @@ namespace quadmark::detail {
 struct Point {
   double x = 0, y = 0, z = 0;
 };
-inline Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
-inline double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Point operator-(const Point& a, const Point& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Point operator+(const Point& a, const Point& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Point operator*(double s, const Point& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+inline double dot(const Point& a, const Point& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Point cross(const Point& a, const Point& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double squared(const Point& a) { return dot(a, a); }
+inline double squared(const Point& a) {
+  return dot(a, a);
+}
 
 inline double squaredToSegment(const Point& p, const Point& a, const Point& b) {
   const Point ab = b - a, ap = p - a;

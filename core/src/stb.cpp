@@ -11,7 +11,9 @@ namespace {
 // doubles its buffers: nothing honest comes near this.
 constexpr std::size_t kMaxAllocation = 64u << 20;
 
-void* limitedMalloc(std::size_t bytes) { return bytes > kMaxAllocation ? nullptr : std::malloc(bytes); }
+void* limitedMalloc(std::size_t bytes) {
+  return bytes > kMaxAllocation ? nullptr : std::malloc(bytes);
+}
 void* limitedRealloc(void* block, std::size_t bytes) {
   return bytes > kMaxAllocation ? nullptr : std::realloc(block, bytes);
 }

@@ -17,12 +17,12 @@ struct Distortion {
   /// 10 log10( sum |v - c|^2 / sum |v - v'|^2 ) over the vertices that faces use, twins counted once each as stored,
   /// c = their mean. Infinity when nothing moved.
   double snrDb = 0;
-  double rmsRel = 0;           ///< root mean square vertex displacement
-  double maxRel = 0;           ///< largest vertex displacement
-  double hausdorffRel = 0;     ///< two-sided, sampled: see hausdorffLocal()
+  double rmsRel = 0;        ///< root mean square vertex displacement
+  double maxRel = 0;        ///< largest vertex displacement
+  double hausdorffRel = 0;  ///< two-sided, sampled: see hausdorffLocal()
   /// 20 log10( pi / rms angle between corresponding vertex normals (area weighted, radians) ). Infinity when equal.
   double normalPsnrDb = 0;
-  double meanNormalDeg = 0;    ///< mean angle between corresponding vertex normals
+  double meanNormalDeg = 0;  ///< mean angle between corresponding vertex normals
 };
 
 /// Compares two meshes with the same connectivity and vertex order; only the positions of `marked` are used. A mesh
@@ -36,12 +36,13 @@ struct Distortion {
 
 /// Two-sided Hausdorff distance in file units, in the manner of Metro (Cignoni et al. 1998) for meshes with the same
 /// connectivity: every vertex, edge midpoint and triangle centre (polygons are fanned) of one surface against the faces
-/// around the corresponding place (one ring) of the other. An upper bound of the distance for those samples. Cost: linear.
+/// around the corresponding place (one ring) of the other. An upper bound of the distance for those samples. Cost:
+/// linear.
 [[nodiscard]] double hausdorffLocal(const Mesh& a, const Mesh& b);
 
 /// Two-sided Hausdorff distance between any two meshes, file units, by a tree of boxes over the triangles (polygons are
-/// fanned); `samplesPerFace` (>= 0) deterministic points per triangle plus all used vertices. Infinite when one mesh alone
-/// has no faces. Cost: n log n.
+/// fanned); `samplesPerFace` (>= 0) deterministic points per triangle plus all used vertices. Infinite when one mesh
+/// alone has no faces. Cost: n log n.
 [[nodiscard]] double hausdorff(const Mesh& a, const Mesh& b, int samplesPerFace = 4);
 
 /// Bit error rate: (wrong + erased / 2) / all. `erased` empty or per bit (nonzero: not read). Any nonzero bit counts as

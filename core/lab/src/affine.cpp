@@ -33,9 +33,9 @@ Mesh affine(const Mesh& mesh, const Affine& map) {
   Mesh out = mesh;
   for (std::size_t v = 0; v < out.vertexCount(); ++v) {
     const Vec3 p = at(mesh.positions, v);
-    put(out.positions, v, {map[0] * p.x + map[1] * p.y + map[2] * p.z + map[3],
-                           map[4] * p.x + map[5] * p.y + map[6] * p.z + map[7],
-                           map[8] * p.x + map[9] * p.y + map[10] * p.z + map[11]});
+    put(out.positions, v,
+        {map[0] * p.x + map[1] * p.y + map[2] * p.z + map[3], map[4] * p.x + map[5] * p.y + map[6] * p.z + map[7],
+         map[8] * p.x + map[9] * p.y + map[10] * p.z + map[11]});
   }
   roundToPrecision(out);
   return out;
@@ -48,8 +48,7 @@ Result<Affine> paperAffine(std::string_view name) {
   if (name == "RE") return kReflection;
   if (name == "S") return kScale;
   if (name == "SH") return kShear;
-  if (name == "CB")
-    return compose(kShear, compose(kScale, compose(kReflection, compose(kNonUniformScale, rotation))));
+  if (name == "CB") return compose(kShear, compose(kScale, compose(kReflection, compose(kNonUniformScale, rotation))));
   return Error{ErrorCode::badOption, "affine attack \"" + std::string(name) + "\" is not one of R, NS, RE, S, SH, CB"};
 }
 

@@ -36,7 +36,9 @@ Result<Mesh> attackAffine(const Mesh& mesh, const AttackSpec& spec) {
   return affine(mesh, *map);
 }
 
-Result<Mesh> attackReorder(const Mesh& mesh, const AttackSpec& spec) { return reorder(mesh, spec.seed); }
+Result<Mesh> attackReorder(const Mesh& mesh, const AttackSpec& spec) {
+  return reorder(mesh, spec.seed);
+}
 
 Result<Mesh> attackCrop(const Mesh& mesh, const AttackSpec& spec) {
   const Status range = checkAmount(spec, "share of the vertices to remove", 0, 1);
@@ -59,7 +61,8 @@ Result<Mesh> attackQuantize(const Mesh& mesh, const AttackSpec& spec) {
   if (!range) return range.error();
   const int bits = static_cast<int>(spec.amount);
   if (bits != spec.amount)
-    return Error{ErrorCode::badOption, "quantize: amount " + shortNumber(spec.amount) + " is not a whole number of bits"};
+    return Error{ErrorCode::badOption,
+                 "quantize: amount " + shortNumber(spec.amount) + " is not a whole number of bits"};
   const Result<int> grid = chooseVariant(spec, {"common", "per-axis"});
   if (!grid) return grid.error();
   return quantize(mesh, bits, *grid == 0 ? Grid::common : Grid::perAxis);

@@ -5,8 +5,8 @@ namespace quadmark::lab {
 
 Mesh crop(const Mesh& mesh, double fraction, int axis, std::uint64_t seed, VertexOrigin* origin) {
   const WeldedMesh welded = weld(mesh);
-  const Vec3 direction = axis == 3 ? randomDirection(seed)
-                                   : Vec3{axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0};
+  const Vec3 direction =
+      axis == 3 ? randomDirection(seed) : Vec3{axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0};
   const std::size_t removed = shareOf(fraction, welded.vertexCount());
   std::vector<std::uint8_t> keep(mesh.vertexCount(), 1);
   if (removed > 0) {

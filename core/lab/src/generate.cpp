@@ -46,8 +46,8 @@ constexpr Model kModels[] = {
 
 Result<Mesh> generate(const std::string& name, std::size_t vertices, std::uint64_t seed) {
   if (vertices > kMaxVertices)
-    return Error{ErrorCode::badOption, "generate: " + std::to_string(vertices) + " vertices are more than " +
-                                           std::to_string(kMaxVertices)};
+    return Error{ErrorCode::badOption,
+                 "generate: " + std::to_string(vertices) + " vertices are more than " + std::to_string(kMaxVertices)};
   std::string known;
   for (const Model& model : kModels) {
     if (name == model.name) return model.make(vertices, seed);

@@ -14,7 +14,9 @@ constexpr double kBore = 0.7, kChamfer = 0.1, kHub = 1.2, kFillet = 0.25, kTop =
 
 /// Onto a grid of 2^-16: sums and differences of such numbers are exact in float32 at this size, so that slanted walls
 /// are as exactly flat as upright ones.
-double snapped(double x) { return std::floor(x * 65536 + 0.5) / 65536; }
+double snapped(double x) {
+  return std::floor(x * 65536 + 0.5) / 65536;
+}
 
 /// A point of the plate's outline, and along which side it may slide: `slide` is zero at corners and on the arc.
 struct OutlinePoint {
@@ -58,8 +60,9 @@ std::vector<Loop> section(double spacing) {
     const int pieces = std::max(least, static_cast<int>(length / spacing + 0.5));
     for (int i = 0; i < pieces; ++i) {
       const double t = static_cast<double>(i) / pieces;
-      loops.push_back({from.radius + t * (to.radius - from.radius), snapped(from.height + t * (to.height - from.height)),
-                       from.outer + t * (to.outer - from.outer), i == 0 ? Loop::Freedom::none : freedom});
+      loops.push_back({from.radius + t * (to.radius - from.radius),
+                       snapped(from.height + t * (to.height - from.height)), from.outer + t * (to.outer - from.outer),
+                       i == 0 ? Loop::Freedom::none : freedom});
     }
   };
   const double neck = kPlate + kFillet, foot = kHub + kFillet;
@@ -115,10 +118,12 @@ Mesh machinedPart(std::size_t vertices, std::uint64_t seed) {
   for (std::uint32_t row = 0; row < rows; ++row)
     for (std::uint32_t column = 0; column < columns; ++column) {
       const std::uint32_t nextRow = (row + 1) % rows, nextColumn = (column + 1) % columns;
-      const std::uint32_t a = row * columns + column, b = row * columns + nextColumn, c = nextRow * columns + nextColumn,
-                          d = nextRow * columns + column;
-      if (random.below(2) == 0) mesh.faceVertices.insert(mesh.faceVertices.end(), {a, c, b, a, d, c});
-      else mesh.faceVertices.insert(mesh.faceVertices.end(), {a, d, b, b, d, c});
+      const std::uint32_t a = row * columns + column, b = row * columns + nextColumn,
+                          c = nextRow * columns + nextColumn, d = nextRow * columns + column;
+      if (random.below(2) == 0)
+        mesh.faceVertices.insert(mesh.faceVertices.end(), {a, c, b, a, d, c});
+      else
+        mesh.faceVertices.insert(mesh.faceVertices.end(), {a, d, b, b, d, c});
     }
   roundToPrecision(mesh);
   return mesh;

@@ -24,9 +24,9 @@ class Knot {
     const Vec3 core{reach * around.cos, reach * around.sin, kMinor * through.sin};
     // The torus' own normal gives a frame that closes after one round.
     const Vec3 normal{through.cos * around.cos, through.cos * around.sin, through.sin};
-    const Vec3 tangent = normalized({-3 * kMinor * through.sin * around.cos - 2 * reach * around.sin,
-                                     -3 * kMinor * through.sin * around.sin + 2 * reach * around.cos,
-                                     3 * kMinor * through.cos});
+    const Vec3 tangent =
+        normalized({-3 * kMinor * through.sin * around.cos - 2 * reach * around.sin,
+                    -3 * kMinor * through.sin * around.sin + 2 * reach * around.cos, 3 * kMinor * through.cos});
     const Vec3 binormal = cross(tangent, normal);
     const SinCos angle = sinCosTurns(point.v);
     const Vec3 outwards = angle.cos * normal - angle.sin * binormal;
@@ -59,7 +59,8 @@ class Knot {
     // 4. Ribs across the strands, their phase bent by noise, and grain.
     const double rib = sinCosTurns(24 * point.u + 4 * point.v + 0.5 * folds_.at(1.5 * skin)).cos;
     const double ribs = 0.13 * visible(0.35) * back * (std::sqrt(rib * rib + 0.01) - 0.6);
-    const double grain = 0.02 * visible(0.25) * grain_.sum(4 * skin, 2) + 0.008 * visible(0.1) * grain_.sum(16 * skin, 2);
+    const double grain =
+        0.02 * visible(0.25) * grain_.sum(4 * skin, 2) + 0.008 * visible(0.1) * grain_.sum(16 * skin, 2);
     return kTube + swelling + strand + folds + ribs + grain;
   }
 
@@ -76,7 +77,8 @@ Mesh sculpture(std::size_t vertices, std::uint64_t seed) {
   const auto columns = static_cast<std::uint32_t>(count / rows + 0.5);
   const Knot knot(seed, spacing);
   Random random(Random::mix(seed + 3));
-  TorusSurface surface(columns, rows, [&](SurfacePoint point) { return knot.at(point); }, random);
+  TorusSurface surface(
+      columns, rows, [&](SurfacePoint point) { return knot.at(point); }, random);
   surface.flipToDelaunay(6);
   for (double jitter : {0.3, 0.2, 0.1, 0.0}) {
     surface.relax(jitter, random);

@@ -113,8 +113,7 @@ Mesh icosphere(int subdivisions) {
     for (std::uint32_t b = a + 1; b < 12; ++b)
       for (std::uint32_t c = b + 1; c < 12; ++c) {
         if (!near(a, b) || !near(b, c) || !near(c, a)) continue;
-        const bool outwards =
-            dot(cross(at(mesh.positions, a), at(mesh.positions, b)), at(mesh.positions, c)) > 0;
+        const bool outwards = dot(cross(at(mesh.positions, a), at(mesh.positions, b)), at(mesh.positions, c)) > 0;
         mesh.faceVertices.insert(mesh.faceVertices.end(), {a, outwards ? b : c, outwards ? c : b});
       }
   for (int level = 0; level < subdivisions; ++level) {
@@ -136,8 +135,9 @@ Mesh bumpyGrid(int columns, int rows, std::uint64_t seed) {
   Mesh mesh = flatGrid(columns, rows);
   Random random(seed);
   for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
-    put(mesh.positions, v, at(mesh.positions, v) + Vec3{random.uniform(-0.25, 0.25), random.uniform(-0.25, 0.25),
-                                                        random.uniform(-0.5, 0.5)});
+    put(mesh.positions, v,
+        at(mesh.positions, v) +
+            Vec3{random.uniform(-0.25, 0.25), random.uniform(-0.25, 0.25), random.uniform(-0.5, 0.5)});
   roundToPrecision(mesh);
   return mesh;
 }

@@ -31,7 +31,9 @@ void addFace(Mesh& mesh, std::initializer_list<std::uint32_t> face) {
 /// The faces around each vertex of a closed triangle mesh, each list in turning order.
 std::vector<std::vector<std::uint32_t>> orderedRings(const Mesh& mesh) {
   // (face, next corner's vertex, previous corner's vertex) as seen from each vertex
-  struct Spoke { std::uint32_t face, next, previous; };
+  struct Spoke {
+    std::uint32_t face, next, previous;
+  };
   std::vector<std::vector<Spoke>> spokes(mesh.vertexCount());
   for (std::size_t c = 0; c < mesh.faceVertices.size(); ++c) {
     const std::size_t f = c / 3;
@@ -76,7 +78,9 @@ Mesh polygonMix(std::uint64_t seed) {
       continue;
     }
     switch (random.below(4)) {
-      case 0: addFace(mesh, {r(0), r(1), r(2), r(3), r(4), r(5)}); break;
+      case 0:
+        addFace(mesh, {r(0), r(1), r(2), r(3), r(4), r(5)});
+        break;
       case 1:
         addFace(mesh, {r(0), r(1), r(2), r(3)});
         addFace(mesh, {r(3), r(4), r(5), r(0)});
@@ -119,7 +123,8 @@ Mesh nonManifold() {
   }
   // ... and a cone that touches the top of the spine with its tip alone: a bow-tie vertex.
   const std::uint32_t tip = kRows - 1, rim = static_cast<std::uint32_t>(mesh.vertexCount());
-  constexpr double kCircle[8][2] = {{1, 0}, {0.7, 0.7}, {0, 1}, {-0.7, 0.7}, {-1, 0}, {-0.7, -0.7}, {0, -1}, {0.7, -0.7}};
+  constexpr double kCircle[8][2] = {{1, 0},  {0.7, 0.7},   {0, 1},  {-0.7, 0.7},
+                                    {-1, 0}, {-0.7, -0.7}, {0, -1}, {0.7, -0.7}};
   for (const auto& p : kCircle) append(mesh.positions, {0.2 * p[0], 0.2 * p[1], 1.1 + 0.3});
   for (std::uint32_t i = 0; i < 8; ++i)
     mesh.faceVertices.insert(mesh.faceVertices.end(), {tip, rim + i, rim + (i + 1) % 8});

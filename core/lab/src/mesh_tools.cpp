@@ -58,8 +58,8 @@ std::vector<std::uint32_t> fannedTriangles(const Mesh& mesh) {
   triangles.reserve(mesh.faceVertices.size() * 3 / 2);
   for (std::size_t f = 0; f < mesh.faceCount(); ++f)
     for (std::size_t c = mesh.faceBegin(f) + 2; c < mesh.faceEnd(f); ++c)
-      triangles.insert(triangles.end(), {mesh.faceVertices[mesh.faceBegin(f)], mesh.faceVertices[c - 1],
-                                         mesh.faceVertices[c]});
+      triangles.insert(triangles.end(),
+                       {mesh.faceVertices[mesh.faceBegin(f)], mesh.faceVertices[c - 1], mesh.faceVertices[c]});
   return triangles;
 }
 

@@ -33,8 +33,7 @@ Mesh localNoise(const Mesh& mesh, double amplitude, double share, std::uint64_t 
   if (count == 0) return mesh;
   const Vec3 direction = randomDirection(Random::mix(seed + 1));  // apart from the noise's own numbers
   const HeightKey limit = lowestKeys(welded, direction, count);
-  return noiseWhere(mesh, welded, amplitude, seed,
-                    [&](const Vec3& p) { return !(limit < heightKey(p, direction)); });
+  return noiseWhere(mesh, welded, amplitude, seed, [&](const Vec3& p) { return !(limit < heightKey(p, direction)); });
 }
 
 }  // namespace quadmark::lab

@@ -8,8 +8,12 @@
 namespace quadmark::lab {
 namespace {
 
-double fade(double t) { return t * t * t * (t * (6 * t - 15) + 10); }
-double between(double a, double b, double t) { return a + t * (b - a); }
+double fade(double t) {
+  return t * t * t * (t * (6 * t - 15) + 10);
+}
+double between(double a, double b, double t) {
+  return a + t * (b - a);
+}
 
 /// Three gradient components out of one hash: 21 bits each, in [-1, 1).
 double slope(std::uint64_t hash, double x, double y, double z) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Error quadrics: the weighted sum of squared distances to planes, as a function of a point (Garland and Heckbert 1997).
+// Error quadrics: the weighted sum of squared distances to planes, as a function of a point (Garland and Heckbert
+// 1997).
 #pragma once
 
 #include "vec3.h"

@@ -70,11 +70,11 @@ class Collapser {
   std::vector<std::uint32_t> version_;
   std::vector<std::uint8_t> alive_, moved_, special_;  // special: on an edge that has not exactly two faces
   std::size_t aliveCount_ = 0;
-  std::vector<std::uint32_t> corners_;                   // 3 per face; kNone in the first one of a removed face
-  std::vector<std::uint32_t> first_, next_;              // per vertex its corners as a list
-  std::vector<std::uint32_t> mark_;                      // scratch for neighbour sets, compared with stamp_
+  std::vector<std::uint32_t> corners_;       // 3 per face; kNone in the first one of a removed face
+  std::vector<std::uint32_t> first_, next_;  // per vertex its corners as a list
+  std::vector<std::uint32_t> mark_;          // scratch for neighbour sets, compared with stamp_
   std::uint32_t stamp_ = 0;
-  std::vector<std::uint32_t> facesA_, facesB_;           // scratch
+  std::vector<std::uint32_t> facesA_, facesB_;  // scratch
   std::vector<std::pair<std::uint32_t, std::uint32_t>> opposite_;
   std::vector<Candidate> heap_;
 };
@@ -246,7 +246,8 @@ bool Collapser::keepsShape(std::uint32_t v, std::uint32_t other, const Vec3& pla
       return std::max({dot(q - p, q - p), dot(r - p, r - p), dot(r - q, r - q)});
     };
     // A face that was a needle already may stay one.
-    if (lengthAfter < kLeastFatness * longest(place) && lengthBefore >= kLeastFatness * longest(place_[v])) return false;
+    if (lengthAfter < kLeastFatness * longest(place) && lengthBefore >= kLeastFatness * longest(place_[v]))
+      return false;
   }
   return true;
 }

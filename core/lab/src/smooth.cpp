@@ -37,7 +37,9 @@ Mesh smooth(const Mesh& mesh, const std::vector<double>& factors, int iterations
 
 }  // namespace
 
-Mesh smoothLaplacian(const Mesh& mesh, double lambda, int iterations) { return smooth(mesh, {lambda}, iterations); }
+Mesh smoothLaplacian(const Mesh& mesh, double lambda, int iterations) {
+  return smooth(mesh, {lambda}, iterations);
+}
 
 Mesh smoothTaubin(const Mesh& mesh, double lambda, int iterations) {
   return smooth(mesh, {lambda, -lambda / (1 - 0.1 * lambda)}, iterations);

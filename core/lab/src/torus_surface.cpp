@@ -8,7 +8,9 @@ namespace quadmark::lab {
 namespace {
 
 /// The shortest way between two values of period 1.
-double shortest(double difference) { return difference - std::floor(difference + 0.5); }
+double shortest(double difference) {
+  return difference - std::floor(difference + 0.5);
+}
 
 }  // namespace
 
@@ -16,7 +18,8 @@ TorusSurface::TorusSurface(std::uint32_t columns, std::uint32_t rows, SurfaceFun
     : shape_(std::move(shape)), columns_(columns), rows_(rows) {
   for (std::uint32_t column = 0; column < columns; ++column)
     for (std::uint32_t row = 0; row < rows; ++row) {
-      points_.push_back({(column + random.uniform(-0.25, 0.25)) / columns_, (row + random.uniform(-0.25, 0.25)) / rows_});
+      points_.push_back(
+          {(column + random.uniform(-0.25, 0.25)) / columns_, (row + random.uniform(-0.25, 0.25)) / rows_});
       places_.push_back(shape_(points_.back()));
     }
   // Both triangles of a cell, and by arithmetic on cell numbers the half-edge on the other side of each of theirs:
@@ -30,8 +33,8 @@ TorusSurface::TorusSurface(std::uint32_t columns, std::uint32_t rows, SurfaceFun
       const std::uint32_t a = cell(column, row), b = cell(column + 1, row), c = cell(column + 1, row + 1),
                           d = cell(column, row + 1);
       corner_.insert(corner_.end(), {a, b, c, a, c, d});
-      twin_.insert(twin_.end(), {6 * cell(column, row + rows - 1) + 4, 6 * cell(column + 1, row) + 5, self + 3, self + 2,
-                                 6 * cell(column, row + 1) + 0, 6 * cell(column + columns - 1, row) + 1});
+      twin_.insert(twin_.end(), {6 * cell(column, row + rows - 1) + 4, 6 * cell(column + 1, row) + 5, self + 3,
+                                 self + 2, 6 * cell(column, row + 1) + 0, 6 * cell(column + columns - 1, row) + 1});
     }
   outgoing_.resize(points_.size());
   for (std::uint32_t h = 0; h < corner_.size(); ++h) outgoing_[corner_[h]] = h;
@@ -74,7 +77,8 @@ bool TorusSurface::wantsFlip(std::uint32_t h) const {
   if (!(sine < -1e-9 * scale)) return false;
   // In a sharp groove the flatter choice of the two looks right, whatever the angles.
   if (foldCosine(c, d, b, a) < foldCosine(a, b, c, d) - 0.05) return false;
-  if (parameterArea(points_[c], points_[d], points_[b]) < 0.02 || parameterArea(points_[d], points_[c], points_[a]) < 0.02)
+  if (parameterArea(points_[c], points_[d], points_[b]) < 0.02 ||
+      parameterArea(points_[d], points_[c], points_[a]) < 0.02)
     return false;
   bool joined = false;
   forEachSpoke(c, [&](std::uint32_t spoke) { joined = joined || corner_[next(spoke)] == d; });

@@ -68,7 +68,9 @@ std::string minMax(const Mesh& mesh, const Part& part) {
          "," + number(high[1]) + "," + number(high[2]) + "]";
 }
 
-std::string comma(std::size_t index) { return index == 0 ? "" : ","; }
+std::string comma(std::size_t index) {
+  return index == 0 ? "" : ",";
+}
 
 }  // namespace
 
@@ -81,15 +83,17 @@ std::vector<std::uint8_t> writeGlb(const Mesh& mesh) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string position = std::to_string(2 * i), index = std::to_string(2 * i + 1);
     const std::size_t positionBytes = 12 * parts[i].vertices.size(), indexBytes = 4 * parts[i].indices.size();
-    views += comma(i) + "{\"buffer\":0,\"byteOffset\":" + std::to_string(offset) + ",\"byteLength\":" +
-             std::to_string(positionBytes) + ",\"target\":34962},{\"buffer\":0,\"byteOffset\":" +
-             std::to_string(offset + positionBytes) + ",\"byteLength\":" + std::to_string(indexBytes) +
-             ",\"target\":34963}";
-    accessors += comma(i) + "{\"bufferView\":" + position + ",\"componentType\":5126,\"count\":" +
-                 std::to_string(parts[i].vertices.size()) + ",\"type\":\"VEC3\"," + minMax(mesh, parts[i]) +
-                 "},{\"bufferView\":" + index + ",\"componentType\":5125,\"count\":" +
-                 std::to_string(parts[i].indices.size()) + ",\"type\":\"SCALAR\"}";
-    meshes += comma(i) + "{\"primitives\":[{\"attributes\":{\"POSITION\":" + position + "},\"indices\":" + index + "}]}";
+    views += comma(i) + "{\"buffer\":0,\"byteOffset\":" + std::to_string(offset) +
+             ",\"byteLength\":" + std::to_string(positionBytes) +
+             ",\"target\":34962},{\"buffer\":0,\"byteOffset\":" + std::to_string(offset + positionBytes) +
+             ",\"byteLength\":" + std::to_string(indexBytes) + ",\"target\":34963}";
+    accessors += comma(i) + "{\"bufferView\":" + position +
+                 ",\"componentType\":5126,\"count\":" + std::to_string(parts[i].vertices.size()) +
+                 ",\"type\":\"VEC3\"," + minMax(mesh, parts[i]) + "},{\"bufferView\":" + index +
+                 ",\"componentType\":5125,\"count\":" + std::to_string(parts[i].indices.size()) +
+                 ",\"type\":\"SCALAR\"}";
+    meshes +=
+        comma(i) + "{\"primitives\":[{\"attributes\":{\"POSITION\":" + position + "},\"indices\":" + index + "}]}";
     nodes += comma(i) + "{\"mesh\":" + std::to_string(i) + "}";
     scene += comma(i) + std::to_string(i);
     offset += positionBytes + indexBytes;
@@ -97,8 +101,8 @@ std::vector<std::uint8_t> writeGlb(const Mesh& mesh) {
   std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"quadmark\"}";
   if (!parts.empty())  // glTF forbids empty arrays
     json += ",\"scene\":0,\"scenes\":[{\"nodes\":[" + scene + "]}],\"nodes\":[" + nodes + "],\"meshes\":[" + meshes +
-            "],\"accessors\":[" + accessors + "],\"bufferViews\":[" + views + "],\"buffers\":[{\"byteLength\":" +
-            std::to_string(offset) + "}]";
+            "],\"accessors\":[" + accessors + "],\"bufferViews\":[" + views +
+            "],\"buffers\":[{\"byteLength\":" + std::to_string(offset) + "}]";
   json += "}";
   json.append((4 - json.size() % 4) % 4, ' ');
 

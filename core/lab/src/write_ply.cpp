@@ -19,12 +19,16 @@ std::vector<std::uint8_t> writePly(const Mesh& mesh) {
                  mesh.faceCount() * (wideCounts ? 4 : 1));
   out.text(header);
   for (double x : mesh.positions)
-    if (wide) out.float64(x);
-    else out.float32(static_cast<float>(x));
+    if (wide)
+      out.float64(x);
+    else
+      out.float32(static_cast<float>(x));
   for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
     const auto corners = static_cast<std::uint32_t>(mesh.faceEnd(f) - mesh.faceBegin(f));
-    if (wideCounts) out.uint32(corners);
-    else out.byte(static_cast<std::uint8_t>(corners));
+    if (wideCounts)
+      out.uint32(corners);
+    else
+      out.byte(static_cast<std::uint8_t>(corners));
     for (std::size_t c = mesh.faceBegin(f); c < mesh.faceEnd(f); ++c) out.uint32(mesh.faceVertices[c]);
   }
   return out.take();

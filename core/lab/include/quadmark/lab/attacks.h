@@ -55,7 +55,8 @@ enum class Grid : std::uint8_t { common, perAxis };
 /// Umbrella Laplacian smoothing: x += lambda * (mean of neighbours - x) for all vertices at once. Vertices of border
 /// edges (edges of one face) stay fixed. @param lambda  0..1. @param iterations  >= 0.
 [[nodiscard]] Mesh smoothLaplacian(const Mesh& mesh, double lambda, int iterations);
-/// Taubin's lambda | mu smoothing: one iteration is a step with lambda > 0 then one with mu = -lambda / (1 - 0.1 lambda).
+/// Taubin's lambda | mu smoothing: one iteration is a step with lambda > 0 then one with mu = -lambda / (1 - 0.1
+/// lambda).
 [[nodiscard]] Mesh smoothTaubin(const Mesh& mesh, double lambda, int iterations);
 
 /// meshoptimizer's simplifier without an error limit: keeps about `keep` (0..1) of the triangles (polygons are fanned
@@ -74,8 +75,8 @@ enum class Grid : std::uint8_t { common, perAxis };
 
 /// An attack by name and amount, as the command line spells it.
 /// kinds: affine (variant = R NS RE S SH CB, default CB; amount unused), reorder, crop (amount = share of the vertices,
-/// variant = x y z random, default y), noise, local-noise (amount = amplitude; half of the vertices), quantize (amount =
-/// bits, variant = common per-axis, default common), smooth (amount = lambda, variant = taubin laplacian, default
+/// variant = x y z random, default y), noise, local-noise (amount = amplitude; half of the vertices), quantize (amount
+/// = bits, variant = common per-axis, default common), smooth (amount = lambda, variant = taubin laplacian, default
 /// taubin, iterations), simplify (amount = share removed, variant = meshopt qem, default meshopt), deform (amount =
 /// radians). An empty variant means the default.
 struct AttackSpec {
@@ -89,7 +90,9 @@ struct AttackSpec {
 [[nodiscard]] Result<Mesh> attack(const Mesh& mesh, const AttackSpec& spec);
 
 /// All kinds with a one-line description each, for help texts.
-struct AttackInfo { std::string kind, description; };
+struct AttackInfo {
+  std::string kind, description;
+};
 [[nodiscard]] std::vector<AttackInfo> attackKinds();
 
 /// Writes a mesh as a new, plain file (not a patch of a user's file): binary little-endian PLY, or GLB when all faces
