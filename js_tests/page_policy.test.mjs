@@ -6,7 +6,7 @@ import { request } from 'node:http';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
 import { HEADER_POLICY, PAGE_POLICY, servePage } from '../web/serve.mjs';
-import { openPage, pageRoot, startBrowser, waitFor } from './page_helpers.mjs';
+import { assertQuiet, openPage, pageRoot, shown, startBrowser, waitFor } from './page_helpers.mjs';
 import { repository, run, temporaryFolder } from './support/files.mjs';
 
 const browser = await startBrowser(after);
@@ -88,6 +88,39 @@ test('code from strings, inline code and other origins are refused, and the watc
   for (const directive of [/policy violated: script-src-elem inline/, /policy violated: script-src eval/, /policy violated: connect-src https:\/\/example\.invalid/, /policy violated: img-src https:\/\/example\.invalid/]) {
     assert.ok(seen.trouble.some((line) => directive.test(line)), `${directive} in ${seen.trouble.join('\n')}`);
   }
+});
+
+test('the page works from a folder below the root of a server', async (t) => {
+  const { server, url } = await servePage({ root: join(pageRoot, '..') });
+  t.after(() => {
+    server.close();
+    server.closeAllConnections();
+  });
+  const { page, seen } = await openPage(t, { context: browser.context, url }, { path: 'dist/' });
+  await page.locator('[data-sample="marked"]').click();
+  await waitFor(page, 'match');
+  assertQuiet(seen, url);
+  assert.deepEqual(seen.requests.filter((request) => request.startsWith(url) && !request.startsWith(`${url}dist/`)), []);
+});
+
+test('a detector or a sample that cannot be loaded is said, and may be tried again', async (t) => {
+  const { page } = await openPage(t, browser);
+  for (const [pattern, title] of [[/\.wasm$/, 'The page could not load its detector.'], [/\/assets\/index-[^/]*\.js$/, 'The page hit a fault of its own.']]) {
+    await page.reload();
+    await browser.context.route(pattern, (route) => route.fulfill({ status: 404, body: 'gone' }));
+    await page.locator('[data-sample="marked"]').click();
+    await waitFor(page, 'problem');
+    assert.equal((await shown(page)).title, title);
+    await browser.context.unroute(pattern);
+    await page.locator('#check').click();
+    await waitFor(page, 'match');
+  }
+  await browser.context.route(/key\.json$/, (route) => route.fulfill({ status: 500, body: 'no' }));
+  t.after(() => browser.context.unroute(/key\.json$/));
+  await page.reload();
+  await page.locator('[data-sample="marked"]').click();
+  await page.locator('#notices li').waitFor();
+  assert.deepEqual((await shown(page)).notices, ['The sample could not be loaded (key.json: HTTP status 500).']);
 });
 
 test('paths out of the folder, links out of it and other methods are refused', async (t) => {
