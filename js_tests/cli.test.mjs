@@ -121,6 +121,26 @@ test('globs and --out-dir take many inputs', async (t) => {
   assert.ok(existsSync(join(folder, 'x.txt')));
 });
 
+test('--jobs handles several inputs at once, with the same results in the same order', async (t) => {
+  const files = Object.fromEntries(['a', 'b', 'c', 'd', 'e'].map((name) => [`${name}.ply`, name === 'c' ? 'no model' : ply]));
+  const { path, cli } = await workspace(t, files);
+  const run = (jobs, out) =>
+    cli(['embed', '?.ply', '--out-dir', out, '--key', 'key.json', '--image', 'logo.png', '--json', '--jobs', jobs]);
+  const [one, three] = [await run('1', 'one'), await run('3', 'three')];
+  assert.equal(three.status, 1, three.stderr);
+  const strip = ({ json }) => json.map(({ millis, output, ...report }) => report);
+  assert.deepEqual(strip(three), strip(one));
+  assert.deepEqual(three.json.map(({ input }) => input), Object.keys(files));
+  assert.equal(three.json[2].error.code, 'bad_file');
+  for (const name of ['a', 'b', 'd', 'e']) {
+    assert.equal(Buffer.compare(readFileSync(path(`one/${name}.ply`)), readFileSync(path(`three/${name}.ply`))), 0);
+  }
+  const read = await cli(['extract', 'three/*.ply', '--key', 'key.json', '--json', '--jobs', '0']);
+  assert.deepEqual(read.json.map(({ verdict }) => verdict), ['match', 'match', 'match', 'match']);
+  assert.equal(read.status, 0);
+  assert.equal((await cli(['inspect', 'three/*.ply', '--json', '--jobs', '2'])).json.length, 4);
+});
+
 test('external buffers and images are written beside the output', async (t) => {
   const { gltf, bin } = splitGlb(glb, 'data/mesh%20one.bin');
   const json = JSON.parse(gltf);

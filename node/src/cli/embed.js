@@ -3,12 +3,12 @@
 import { existsSync } from 'node:fs';
 import { basename, dirname, join, resolve } from 'node:path';
 import { QuadmarkError } from '../error.js';
-import { embed } from '../index_node.js';
 import { EXIT, worstExit } from './exit.js';
 import { displayName, readInput, readModelFile, safeRelativePath } from './files.js';
 import { expandGlobs } from './glob.js';
 import { readKey } from './keys.js';
 import { millisSince } from './output.js';
+import { forEachInput, jobCount } from './pool.js';
 import { makeDirectory, Writer } from './write.js';
 
 /** [{ input, output }] from IN OUT, or from many inputs and --out-dir. */
@@ -46,19 +46,15 @@ export async function embedCommand(files, options, output) {
   } catch (error) {
     return output.failure(null, error);
   }
-  const statuses = [];
-  for (const job of jobs) {
-    try {
-      await embedOne(job, request, writer, output);
-      statuses.push(EXIT.done);
-    } catch (error) {
-      statuses.push(output.failure(job.input, error));
-    }
-  }
+  const statuses = await forEachInput(
+    jobs, jobCount(options.jobs, jobs.length),
+    (job, { embed }) => embedOne(job, request, writer, output, embed),
+    (job, error) => output.failure(job.input, error));
   return worstExit(statuses);
 }
 
-async function embedOne({ input, output: out }, request, writer, output) {
+/** Marks and writes one model; the function it returns prints the result. */
+async function embedOne({ input, output: out }, request, writer, output, embed) {
   const start = performance.now();
   // What cannot be written is said before the work, not after it.
   const target = writer.check(out, input);
@@ -77,10 +73,14 @@ async function embedOne({ input, output: out }, request, writer, output) {
   for (const { path } of files) makeDirectory(dirname(path));
   writer.writeAll([...files, { path: target, bytes }]);
   const warnings = [...(report.warnings ?? []), ...beside.warnings];
-  output.result(
-    { input, output: out, ...report, warnings, millis: millisSince(start) },
-    describe(input, out, report, beside.files),
-    out === '-' ? process.stderr : process.stdout);
+  const millis = millisSince(start);
+  return () => {
+    output.result(
+      { input, output: out, ...report, warnings, millis },
+      describe(input, out, report, beside.files),
+      out === '-' ? process.stderr : process.stdout);
+    return EXIT.done;
+  };
 }
 
 /**

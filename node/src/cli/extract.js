@@ -2,12 +2,12 @@
 // quadmark extract: reads the mark, says what it is worth, writes the pictures asked for.
 import { basename, extname, join } from 'node:path';
 import { QuadmarkError } from '../error.js';
-import { extract } from '../index_node.js';
 import { exitOfVerdict, worstExit } from './exit.js';
 import { displayName, readInput, readModelFile } from './files.js';
 import { expandGlobs } from './glob.js';
 import { readKey } from './keys.js';
 import { millisSince } from './output.js';
+import { forEachInput, jobCount } from './pool.js';
 import { makeDirectory, Writer } from './write.js';
 
 export async function extractCommand(files, options, output) {
@@ -35,14 +35,10 @@ export async function extractCommand(files, options, output) {
   } catch (error) {
     return output.failure(null, error);
   }
-  const statuses = [];
-  for (const input of inputs) {
-    try {
-      statuses.push(await extractOne(input, options, request, writer, output));
-    } catch (error) {
-      statuses.push(output.failure(input, error));
-    }
-  }
+  const statuses = await forEachInput(
+    inputs, jobCount(options.jobs, inputs.length),
+    (input, { extract }) => extractOne(input, options, request, writer, output, extract),
+    (input, error) => output.failure(input, error));
   return worstExit(statuses);
 }
 
@@ -60,17 +56,21 @@ function picturesOf(input, options, writer) {
   return pictures;
 }
 
-async function extractOne(input, options, request, writer, output) {
+/** Reads one model and writes its pictures; the function it returns prints the result. */
+async function extractOne(input, options, request, writer, output, extract) {
   const start = performance.now();
   const pictures = picturesOf(input, options, writer);
   const { bytes, resources } = await readModelFile(input);
   const result = await extract(bytes, { ...request, resources, options: { onProgress: output.onProgress } });
   writer.writeAll(pictures.map(({ path, of }) => ({ path, bytes: result.image[of] })));
-  output.result(
-    { input, ...result.report, millis: millisSince(start) },
-    describe(input, result, pictures),
-    pictures.some(({ path }) => path === '-') ? process.stderr : process.stdout);
-  return exitOfVerdict(result.verdict);
+  const millis = millisSince(start);
+  return () => {
+    output.result(
+      { input, ...result.report, millis },
+      describe(input, result, pictures),
+      pictures.some(({ path }) => path === '-') ? process.stderr : process.stdout);
+    return exitOfVerdict(result.verdict);
+  };
 }
 
 const SENTENCES = {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // quadmark inspect: facts about models, without a key.
-import { inspect } from '../index_node.js';
 import { EXIT, worstExit } from './exit.js';
 import { displayName, readModelFile } from './files.js';
 import { expandGlobs } from './glob.js';
 import { millisSince } from './output.js';
+import { forEachInput, jobCount } from './pool.js';
 
 export async function inspectCommand(files, options, output) {
   let inputs;
@@ -13,19 +13,23 @@ export async function inspectCommand(files, options, output) {
   } catch (error) {
     return output.failure(null, error);
   }
-  const statuses = [];
-  for (const input of inputs) {
-    try {
-      const start = performance.now();
-      const { bytes, resources } = await readModelFile(input);
-      const report = await inspect(bytes, { resources });
-      output.result({ input, ...report, millis: millisSince(start) }, describe(input, report));
-      statuses.push(EXIT.done);
-    } catch (error) {
-      statuses.push(output.failure(input, error));
-    }
-  }
+  const statuses = await forEachInput(
+    inputs, jobCount(options.jobs, inputs.length),
+    (input, { inspect }) => inspectOne(input, output, inspect),
+    (input, error) => output.failure(input, error));
   return worstExit(statuses);
+}
+
+/** Reads one model; the function it returns prints the result. */
+async function inspectOne(input, output, inspect) {
+  const start = performance.now();
+  const { bytes, resources } = await readModelFile(input);
+  const report = await inspect(bytes, { resources });
+  const millis = millisSince(start);
+  return () => {
+    output.result({ input, ...report, millis }, describe(input, report));
+    return EXIT.done;
+  };
 }
 
 /** Every plain value of the report, one per line; what it has is the core's to decide. */

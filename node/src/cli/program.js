@@ -72,6 +72,7 @@ export async function run(argv) {
   const keyOption = () =>
     new Option('--key <file>', 'key file; secrets never go on the command line itself').env('QUADMARK_KEY_FILE');
   const setOption = (what) => new Option('--set <name=value>', what).argParser(collectSetting);
+  const jobs = ['--jobs <count>', 'handle this many inputs at once; 0 takes one per processor', parseWhole, 1];
   const force = ['--force', 'overwrite existing files'];
 
   define('keygen', 'make a key file', keygenCommand)
@@ -93,6 +94,7 @@ export async function run(argv) {
     .option('--id <hex>', '64-bit ID to embed, 1 to 16 hexadecimal digits')
     .option('--scheme <scheme>', 'fail unless the key is for this scheme')
     .option('--out-dir <dir>', 'write each marked model here under its own name')
+    .option(...jobs)
     .addOption(setOption('parameter of the key to override, for reading too (repeatable)'))
     .option(...force);
 
@@ -103,11 +105,13 @@ export async function run(argv) {
     .option('--image-out <mark.png>', 'write the picture that was read')
     .option('--confidence-out <map.png>', 'write how certain each pixel is')
     .option('--out-dir <dir>', 'write both pictures of each model here as NAME.mark.png and NAME.confidence.png')
+    .option(...jobs)
     .addOption(setOption('parameter of the key to override (repeatable)'))
     .option(...force);
 
   define('inspect', 'describe models without a key', inspectCommand)
-    .argument('<files...>', 'models or globs');
+    .argument('<files...>', 'models or globs')
+    .option(...jobs);
 
   define('attack', 'damage a model on purpose, to see what a mark withstands', attackCommand)
     .argument('<in>', 'model')
