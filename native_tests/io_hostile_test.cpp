@@ -3,33 +3,10 @@
 // a clean answer; that no byte outside is touched is the sanitizers' part.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <chrono>
-#include <cstdlib>
-#include <new>
 
+#include "io_allocations.h"
 #include "io_fixtures.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__EMSCRIPTEN__)
-#define QM_COUNT_ALLOCATIONS 0  // the sanitizer has its own operator new
-#else
-#define QM_COUNT_ALLOCATIONS 1
-#endif
-
-#if QM_COUNT_ALLOCATIONS
-namespace {
-std::atomic<std::size_t> largestRequest{0};
-}
-void* operator new(std::size_t size) {
-  std::size_t seen = largestRequest.load();
-  while (size > seen && !largestRequest.compare_exchange_weak(seen, size)) {
-  }
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-#endif
 
 namespace quadmark::test {
 namespace {
@@ -119,10 +96,10 @@ TEST(HostileFiles, SurviveRandomDamage) {
 
 #if QM_COUNT_ALLOCATIONS
 /// The largest single allocation while a file is read.
-std::size_t largestAllocation(const FileBytes& file) {
-  largestRequest = 0;
+std::size_t largestAllocationFor(const FileBytes& file) {
+  resetLargestAllocation();
   const Result<std::unique_ptr<Model>> model = readModel(file);
-  return largestRequest;
+  return largestAllocation();
 }
 
 TEST(HostileFiles, DoNotMakeTheReaderAllocateWhatTheyClaim) {
@@ -143,7 +120,7 @@ TEST(HostileFiles, DoNotMakeTheReaderAllocateWhatTheyClaim) {
     files.push_back(makeGlb(replaced(grid.json, "\"count\":24", count), grid.bin));
   }
   for (const FileBytes& file : files) {
-    EXPECT_LT(largestAllocation(file), 100000u) << textOf(file).substr(0, 200);
+    EXPECT_LT(largestAllocationFor(file), 100000u) << textOf(file).substr(0, 200);
     EXPECT_FALSE(readModel(file).ok());
   }
 }
@@ -159,7 +136,7 @@ TEST(HostileFiles, AllocateInProportionToTheirSize) {
     const std::string key(array);
     const std::string head = key.substr(0, key.find('[') + 1);
     const FileBytes file = makeGlb(replaced(grid.json, key, head + many + key.substr(head.size())), grid.bin);
-    EXPECT_LT(largestAllocation(file), 60 * file.size()) << key;
+    EXPECT_LT(largestAllocationFor(file), 60 * file.size()) << key;
   }
 }
 #endif
