@@ -88,7 +88,8 @@ TEST(ForEachCoplanarSet, SkipsMarkedVerticesAndKeepsToItsSeeds) {
   std::set<Ids> expected, found;
   for (const Ids& ids : setsFound(welded, 1, rounding, {}))
     if (std::none_of(ids.begin(), ids.end(), [&](std::uint32_t v) { return skip[v] != 0; })) expected.insert(ids);
-  forEachCoplanarSet(welded, welded.positions, 1, rounding, {}, skip, [&](const Quad& q) { found.insert(sortedIds(q)); });
+  forEachCoplanarSet(welded, welded.positions, 1, rounding, {}, skip,
+                     [&](const Quad& q) { found.insert(sortedIds(q)); });
   EXPECT_EQ(found, expected);
   EXPECT_FALSE(found.empty());
 
@@ -131,7 +132,8 @@ TEST(SearchCells, GivesDisjointFlatConvexCellsInsideNeighbourhoods) {
       // Some vertex has all four within one edge of itself.
       bool together = false;
       for (std::uint32_t centre : balls[ids[0]])
-        together = together || std::all_of(ids.begin(), ids.end(), [&](std::uint32_t v) { return balls[centre].count(v) != 0; });
+        together = together ||
+                   std::all_of(ids.begin(), ids.end(), [&](std::uint32_t v) { return balls[centre].count(v) != 0; });
       EXPECT_TRUE(together);
     }
     for (std::uint32_t v = 0; v < welded.vertexCount(); ++v)
@@ -150,7 +152,8 @@ TEST(SearchCells, MovesNoVertexFartherThanLambda) {
       for (std::size_t v = 0; v < welded.positions.size(); v += 3) {
         double moved2 = 0;
         for (int k = 0; k < 3; ++k)
-          moved2 += (found.positions[v + k] - welded.positions[v + k]) * (found.positions[v + k] - welded.positions[v + k]);
+          moved2 +=
+              (found.positions[v + k] - welded.positions[v + k]) * (found.positions[v + k] - welded.positions[v + k]);
         ASSERT_LE(std::sqrt(moved2), limit * (1 + 1e-9));
       }
     }
@@ -158,8 +161,10 @@ TEST(SearchCells, MovesNoVertexFartherThanLambda) {
 
 TEST(SearchCells, FindsFewerCellsWithASmallerLambda) {
   const Mesh mesh = lab::sculpture(3000);
-  const std::size_t wide = search(mesh, paramsWith(1e-2)).cells.size(), usual = search(mesh, paramsWith(1e-3)).cells.size(),
-                    tight = search(mesh, paramsWith(1e-5)).cells.size(), none = search(mesh, paramsWith(1e-12)).cells.size();
+  const std::size_t wide = search(mesh, paramsWith(1e-2)).cells.size(),
+                    usual = search(mesh, paramsWith(1e-3)).cells.size(),
+                    tight = search(mesh, paramsWith(1e-5)).cells.size(),
+                    none = search(mesh, paramsWith(1e-12)).cells.size();
   EXPECT_GE(wide, usual);
   EXPECT_GT(usual, tight);
   EXPECT_GT(tight, none);

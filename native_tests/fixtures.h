@@ -70,7 +70,8 @@ inline BitImage logo(std::uint32_t width, std::uint32_t height) {
   for (std::uint32_t y = 0; y < height; ++y)
     for (std::uint32_t x = 0; x < width; ++x) {
       const double u = (x + 0.5) / width - 0.45, v = (y + 0.5) / height - 0.5, r2 = u * u + v * v;
-      image.bits[std::size_t{y} * width + x] = (r2 < 0.16 && r2 > 0.07) || (u > 0.1 && v > 0.1 && u - v < 0.12 && v - u < 0.12);
+      image.bits[std::size_t{y} * width + x] =
+          (r2 < 0.16 && r2 > 0.07) || (u > 0.1 && v > 0.1 && u - v < 0.12 && v - u < 0.12);
     }
   return image;
 }
@@ -105,7 +106,8 @@ inline ::testing::AssertionResult isExact(const Extraction& read, const std::vec
                                        << read.cells << " cells voted in " << read.passes << " passes";
 }
 
-inline ::testing::AssertionResult readsExactly(const Mesh& mesh, const Key& key, const std::vector<std::uint8_t>& bits) {
+inline ::testing::AssertionResult readsExactly(const Mesh& mesh, const Key& key,
+                                               const std::vector<std::uint8_t>& bits) {
   return isExact(readMark(mesh, key), bits);
 }
 

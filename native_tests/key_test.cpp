@@ -61,7 +61,8 @@ TEST(KeyFile, KeepsAnOwnerThatIsNotUtf8FromBreakingTheFile) {
 
 TEST(KeyFile, UsesDefaultsForOptionalMembers) {
   const Result<Key> key = parseKey(R"({"quadmark":1,"scheme":"paper",
-    "secret":"AAECAwQFBgcICQoLDA0ODxAREhMUFRYXGBkaGxwdHh8=","params":{"L1":2,"H1":3,"L2":2,"H2":3,"width":24,"height":24}})");
+    "secret":"AAECAwQFBgcICQoLDA0ODxAREhMUFRYXGBkaGxwdHh8=",
+    "params":{"L1":2,"H1":3,"L2":2,"H2":3,"width":24,"height":24}})");
   ASSERT_TRUE(key.ok());
   EXPECT_EQ(key->secret[31], 31);
   EXPECT_EQ(key->owner, "");
@@ -95,10 +96,10 @@ TEST(KeyFile, RefusesASecretOfTheWrongKind) {
   const std::string text = formatKey(testKey(24, 24));
   const std::size_t at = text.find("\"secret\": \"") + 11;
   const std::string secret = text.substr(at, 44);
-  for (const std::string& other : {std::string(""), secret.substr(0, 40), secret + "AAAA", std::string("!") + secret.substr(1),
+  for (const std::string& other : {std::string(""), secret.substr(0, 40), secret + "AAAA", "!" + secret.substr(1),
                                    std::string(44, 'A')})
     expectRefused(edited(secret, other), ErrorCode::badKey, "secret");
-  expectRefused(edited("\"" + secret + "\"", "[1,2]"), ErrorCode::badKey, "secret");
+  expectRefused(edited('"' + secret + '"', "[1,2]"), ErrorCode::badKey, "secret");
 }
 
 TEST(KeyFile, RefusesEveryParameterOutOfRange) {
@@ -134,7 +135,7 @@ TEST(KeyFile, RefusesEveryParameterOutOfRange) {
     expectRefused(edited(c.from, c.to), ErrorCode::badKey, c.place);
   }
   for (const char* name : {"L1", "H1", "L2", "H2", "width", "height"})
-    expectRefused(edited("\"" + std::string(name) + "\"", "\"other\""), ErrorCode::badKey, name);
+    expectRefused(edited('"' + std::string(name) + '"', "\"other\""), ErrorCode::badKey, name);
   expectRefused(edited("\"params\"", "\"parameters\""), ErrorCode::badKey, "params");
 }
 
