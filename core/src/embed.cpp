@@ -31,7 +31,7 @@ Status Embedder::search() {
   cellOf_.assign(welded_.vertexCount(), kNoVertex);
   for (const Quad& quad : found.cells) {
     for (std::uint32_t v : {quad.a, quad.b, quad.c, quad.d}) cellOf_[v] = static_cast<std::uint32_t>(cells_.size());
-    cells_.push_back({quad, kNoPiece, quad.ratioAC, quad.ratioBD});
+    cells_.push_back({quad, kNoPiece, false, quad.ratioAC, quad.ratioBD});
   }
   return okStatus();
 }
@@ -80,7 +80,28 @@ bool Embedder::plan(PlannedCell& cell, std::uint32_t piece) {
     }
   }
   cell.piece = found ? piece : kNoPiece;
+  cell.written = found;
   return found;
+}
+
+// Random content in the present label (D24), so that nobody without the key can tell which cells carry pieces. A cell
+// for which a few tries find no legal content stays as it is.
+void Embedder::planDecoy(PlannedCell& cell, std::uint64_t number) const {
+  const Quad& q = cell.quad;
+  const DigitSlot &slot1 = codec_.indexSlot(), &slot2 = codec_.pieceSlot();
+  const bool acFirst = q.ratioAC <= q.ratioBD;
+  const std::uint32_t prefix1 = slot1.read(acFirst ? q.ratioAC : q.ratioBD).prefix,
+                      prefix2 = slot2.read(acFirst ? q.ratioBD : q.ratioAC).prefix;
+  for (std::uint64_t attempt = 0; attempt < 16 && !cell.written; ++attempt) {
+    const std::uint64_t random = pad_.decoy(~(16 * number + attempt));
+    const auto index = static_cast<std::uint32_t>((random & 0xffffffff) % codec_.pieces());
+    const auto bits = static_cast<std::uint32_t>(random >> 32) & ((1u << codec_.bitsPerPiece()) - 1);
+    const double r1 = slot1.centre(prefix1, index), r2 = slot2.centre(prefix2, octalDigits(bits, slot2.digitCount()));
+    if (r1 < kMinRatio || r2 > slot2.maxRatio() || !codec_.ordered(r1, r2)) continue;
+    cell.ratioAC = acFirst ? r1 : r2;
+    cell.ratioBD = acFirst ? r2 : r1;
+    cell.written = true;
+  }
 }
 
 void Embedder::round(std::uint32_t vertex) {
@@ -128,7 +149,7 @@ double Embedder::misfitAfterMaps(const PlannedCell& cell) const {
 }
 
 void Embedder::writeCell(PlannedCell& cell) {
-  if (cell.piece == kNoPiece) return;
+  if (!cell.written) return;
   writeRatios(cell.quad, cell.ratioAC, cell.ratioBD, positions_.data());
   settleCell(cell);
 }

@@ -44,8 +44,10 @@ Status Embedder::assign() {
       continue;
     }
     const double r1 = std::min(q.ratioAC, q.ratioBD), r2 = std::max(q.ratioAC, q.ratioBD);
-    if (!pad_.carries(codec_.indexSlot().read(r1).prefix, codec_.pieceSlot().read(r2).prefix)) continue;
-    order.push_back(i);
+    if (pad_.carries(codec_.indexSlot().read(r1).prefix, codec_.pieceSlot().read(r2).prefix))
+      order.push_back(i);
+    else
+      planDecoy(cells_[i], i);
   }
   report_.cells = static_cast<std::uint32_t>(order.size());
   const auto pieces = static_cast<std::uint32_t>(pieces_.size());

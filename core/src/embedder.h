@@ -23,7 +23,8 @@ inline constexpr double kMaxCoarseness = 4, kFineCoarseness = 0.1;
 /// A cell with what it shall carry.
 struct PlannedCell {
   Quad quad;                       ///< as searched: near ends a, b
-  std::uint32_t piece = kNoPiece;  ///< index, or kNoPiece for a decoy or unused cell
+  std::uint32_t piece = kNoPiece;  ///< index, or kNoPiece for a decoy or an unused cell
+  bool written = false;            ///< are the ratios below to be written?
   double ratioAC = 0, ratioBD = 0; ///< what to write
 };
 
@@ -63,6 +64,7 @@ class Embedder {
   [[nodiscard]] double misfit(const PlannedCell& cell, const double* const points[4]) const;
   [[nodiscard]] double misfitAfterMaps(const PlannedCell& cell) const;
   [[nodiscard]] bool plan(PlannedCell& cell, std::uint32_t piece);
+  void planDecoy(PlannedCell& cell, std::uint64_t number) const;
   [[nodiscard]] MarkedMesh result();
 
   // embed_assign.cpp

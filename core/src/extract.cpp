@@ -35,21 +35,24 @@ class Extractor {
         codec_(key.params, pieceCount(key.params)), target_(scrambling(key)) {}
 
   Extraction run() {
+    if (stopped()) return std::move(out_);
     pass(kExactUnits, 0);
+    out_.passes = 1;
     out_.exactCells = voters();
-    settle();
+    settle(1);
     // Pass 2 of the paper, in steps: only when something is missing, and only while it still finds more than chance.
     // "All pieces were seen" would be no reason to stop: garbage covers everything (D21).
     double units = kExactUnits;
     int fruitless = 0;
     while (key_.params.tau > 0 && !complete() && fruitless < 2) {
+      if (stopped()) return std::move(out_);
       const double previous = units;
       units *= kPassFactor;
       const std::uint32_t before = voters();
       const bool more = pass(units, previous);
       ++out_.passes;
       fruitless = voters() > before ? 0 : fruitless + 1;
-      settle();
+      settle(1);
       if (!more) break;
     }
     if (!options_.bitsOnly) judge();
@@ -169,8 +172,14 @@ class Extractor {
                                       [](float confidence) { return confidence >= kSettledConfidence; });
   }
 
+  bool stopped() {
+    out_.cancelled = options_.progress && !options_.progress(out_.passes);
+    return out_.cancelled;
+  }
+
   // Sums the votes of everything accepted so far: bits, erasures, confidence (D22).
-  void settle() {
+  // @param trust  0..1, factor on all log odds.
+  void settle(double trust) {
     std::sort(accepted_.begin(), accepted_.end(), [](const Vote& x, const Vote& y) {
       if (x.label != y.label) return x.label < y.label;
       if (x.piece != y.piece) return x.piece < y.piece;
@@ -195,7 +204,7 @@ class Extractor {
     out_.erased.assign(count, 0);
     out_.confidence.assign(count, 0);
     for (std::uint32_t i = 0; i < count; ++i) {
-      const double sum = sums_[target_[i]];
+      const double sum = trust * sums_[target_[i]];
       // |P(1) - P(0)| of log odds `sum`: tanh(sum / 2).
       const double odds = exactExp(-std::fabs(sum)), confidence = (1 - odds) / (1 + odds);
       out_.confidence[i] = static_cast<float>(confidence);
@@ -205,10 +214,12 @@ class Extractor {
   }
 
   void judge() {
+    compareWithReference();
     const std::uint32_t width = static_cast<std::uint32_t>(codec_.bitsPerPiece());
     AgreementTest test(codec_.pieces() * width);
     // One bounded vote per bit and label: cells with one label share their pad, so they are one coin, not many.
-    std::vector<double> unit(width);
+    const std::size_t bits = std::size_t{codec_.pieces()} * width;
+    std::vector<double> unit(width), weighted(bits, 0), promised(bits, 0), own(bits, 0);
     std::vector<std::uint8_t> seen(codec_.pieces(), 0);
     for (std::size_t begin = 0, end = 0; begin < accepted_.size(); begin = end) {
       std::fill(unit.begin(), unit.end(), 0.0);
@@ -221,21 +232,34 @@ class Extractor {
       }
       const std::uint32_t index = accepted_[begin].index;
       seen[index] = 1;
-      for (std::uint32_t bit = 0; bit < width; ++bit)
-        test.add(index * width + bit, unit[bit] > 0 ? 1 : unit[bit] < 0 ? -1 : 0, purity);
+      for (std::uint32_t bit = 0; bit < width; ++bit) {
+        const int vote = unit[bit] > 0 ? 1 : unit[bit] < 0 ? -1 : 0;
+        const std::size_t at = std::size_t{index} * width + bit;
+        test.add(static_cast<std::uint32_t>(at), vote, purity);
+        weighted[at] += vote * purity;
+        promised[at] += purity * purity;
+        own[at] += purity * purity * purity * purity;
+      }
+    }
+    // Purity says that readings are cells of some mark, agreement that they are cells of this key's: the mean product of
+    // two units' votes on a bit, over what their purities promise. Under a wrong key it is near 0, and what was read
+    // deserves no confidence.
+    double agree = 0, promise = 0;
+    for (std::size_t at = 0; at < bits; ++at) {
+      agree += weighted[at] * weighted[at] - promised[at];
+      promise += promised[at] * promised[at] - own[at];
+    }
+    if (promise > 1) {
+      out_.agreement = std::clamp(agree / promise, 0.0, 1.0);
+      settle(out_.agreement);
     }
     for (std::uint8_t s : seen) out_.piecesRead += s;
     out_.cells = voters();
     out_.agreementProbability = test.probability();
     out_.falsePositive = out_.agreementProbability;
-    if (!options_.reference.empty()) {
-      std::uint64_t read = 0, equal = 0;
-      for (std::size_t i = 0; i < out_.bits.size(); ++i)
-        if (!out_.erased[i]) ++read, equal += out_.bits[i] == options_.reference[i];
-      out_.referenceProbability = referenceProbability(read, equal);
+    if (!options_.reference.empty())
       // Two tests were tried, so the better one counts double.
       out_.falsePositive = std::min(1.0, 2 * std::min(out_.agreementProbability, out_.referenceProbability));
-    }
     if (out_.falsePositive <= kMatchProbability) {
       out_.verdict = Verdict::match;
     } else if (out_.falsePositive <= kDoubtProbability) {
@@ -245,6 +269,14 @@ class Extractor {
       const bool couldHaveShown = test.bestProbability() <= kMatchProbability;
       out_.verdict = !couldHaveShown && excess_ > 4 ? Verdict::inconclusive : Verdict::none;
     }
+  }
+
+  // On the bits as the votes have them: doubts about the key must not take evidence for it away.
+  void compareWithReference() {
+    std::uint64_t read = 0, equal = 0;
+    for (std::size_t i = 0; i < options_.reference.size(); ++i)
+      if (!out_.erased[i]) ++read, equal += out_.bits[i] == options_.reference[i];
+    if (read > 0) out_.referenceProbability = referenceProbability(read, equal);
   }
 
   struct Vote {

@@ -138,8 +138,9 @@ Result<ExtractResponse> extract(std::span<const std::uint8_t> file, const Resour
   ExtractOptions options;
   if (request.reference) options.reference = request.reference->bits;
   options.keepReadings = !(*model)->nodes().empty();
+  options.progress = [&](int passes) { return tell(request.progress, "search", 0.3 + 0.1 * std::min(passes, 6)); };
   const Extraction e = extractMesh(welded, welded.positions, roundingOf(precision), request.key, options);
-  if (!tell(request.progress, "report", 0.95)) return cancelled();
+  if (e.cancelled || !tell(request.progress, "report", 0.95)) return cancelled();
 
   ExtractResponse response;
   response.verdict = verdictName(e.verdict);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -45,13 +46,16 @@ struct Extraction {
   std::uint32_t exactCells = 0;        ///< of these, found in pass 1
   std::uint32_t erasedCells = 0;       ///< readings rejected as erasures (D14)
   std::uint32_t piecesRead = 0;        ///< pieces with at least one vote of weight
-  int passes = 1;
+  int passes = 0;
+  double agreement = 1;                ///< how far copies of a bit agree, of what their purity promises: 0..1; 1 if untested
+  bool cancelled = false;              ///< progress said stop; nothing else is meaningful then
 };
 
 struct ExtractOptions {
   std::span<const std::uint8_t> reference;  ///< expected payload bits, empty for none
   bool keepReadings = false;
-  bool bitsOnly = false;                    ///< leave the verdict and its probabilities out
+  bool bitsOnly = false;                    ///< leave the verdict, its probabilities and the agreement out
+  std::function<bool(int passes)> progress; ///< called before each pass with the number done; false cancels
 };
 
 /// Reads a mesh.
