@@ -86,7 +86,8 @@ class Embedder {
   void applyRounded(const AffineMap& map, const double* point, double* out) const;
   [[nodiscard]] std::vector<double> mapped(const AffineMap& map) const;
   Status verify(const MeshProgress& progress);
-  bool check(const WeldedMesh& welded, const std::vector<double>& positions, bool mayRepair, std::uint64_t& salt);
+  std::size_t check(const WeldedMesh& welded, const std::vector<double>& positions, bool mayRepair,
+                    std::uint64_t& salt);
   [[nodiscard]] bool readsReordered();
   [[nodiscard]] bool weldsAlike() const;
   [[nodiscard]] Extraction read(const WeldedMesh& welded, const std::vector<double>& positions,
