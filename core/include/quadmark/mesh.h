@@ -19,7 +19,7 @@ enum class Precision : std::uint8_t { float32, float64 };
 ///   positions    = { x0 y0 z0, x1 y1 z1, ... }            15 numbers
 ///   faceOffsets  = { 0, 4, 7 }                            faces + 1 numbers
 ///   faceVertices = { 0 1 2 3,  1 4 2 }                    corner -> vertex index
-/// A pure triangle mesh leaves faceOffsets empty: face f then owns corners 3f, 3f+1, 3f+2.
+/// A pure triangle mesh leaves faceOffsets empty: face f then owns corners 3f, 3f+1, 3f+2. No face has fewer than 3 corners.
 ///
 /// Nothing is assumed about manifoldness, orientation or duplicates. Vertices no face refers to are allowed.
 struct Mesh {

@@ -79,6 +79,26 @@ class Natural {
   int size_;
 };
 
+/// The same operations on 64 bits, for the floats of everyday size.
+class Word {
+ public:
+  explicit Word(std::uint64_t value) : value_(value) {}
+  void multiply(std::uint32_t factor) { value_ *= factor; }
+  void multiplyByPowerOfTen(int exponent) {
+    for (; exponent > 0; --exponent) value_ *= 10;
+  }
+  void shiftLeft(int bits) { value_ <<= bits; }
+  void add(const Word& other) { value_ += other.value_; }
+  void subtract(const Word& other) { value_ -= other.value_; }
+  [[nodiscard]] int compare(const Word& other) const { return value_ < other.value_ ? -1 : value_ > other.value_ ? 1 : 0; }
+  [[nodiscard]] int compareSum(const Word& other, const Word& limit) const {
+    return Word(value_ + other.value_).compare(limit);
+  }
+
+ private:
+  std::uint64_t value_;
+};
+
 /// value = 0.d1 d2 ... dn * 10^exponent
 struct Digits {
   char digits[20];
@@ -88,9 +108,9 @@ struct Digits {
 
 /// Digits of mantissa * 2^exponent, until they identify it among its neighbours of the same format.
 /// @param atPowerOfTwo  the neighbour below is half as far away as the one above.
-template <int kLimbs>
+/// @tparam Int  wide enough for 10 * (mantissa + 1) and for 10 * 2^-exponent, both times the power of ten of step 1.
+template <class Int>
 Digits shortestDigits(std::uint64_t mantissa, int exponent, bool atPowerOfTwo) {
-  using Int = Natural<kLimbs>;
   // Invariants: value = remainder / scale; the rounding interval reaches below / scale and above / scale from it.
   Int remainder(mantissa), scale(1), below(1), above(1);
   const int extraBit = atPowerOfTwo ? 2 : 1;
@@ -178,7 +198,11 @@ std::string format(std::uint64_t bits, bool negative) {
   if (biased == 0 && fraction == 0) return negative ? "-0" : "0";
   const std::uint64_t mantissa = biased == 0 ? fraction : fraction | (std::uint64_t{1} << kMantissaBits);
   const int exponent = (biased == 0 ? 1 : biased) - kBias - kMantissaBits;
-  return layOut(negative, shortestDigits<kLimbs>(mantissa, exponent, fraction == 0 && biased > 1));
+  const bool atPowerOfTwo = fraction == 0 && biased > 1;
+  // Floats from 2^-17 up to 2^24 stay below 2^52 throughout: 2^26 * 10^6 * 10 above the bar, 2^42 * 10 * 10 below it.
+  const bool small = kMantissaBits == 23 && exponent >= -40 && exponent <= 0 && biased != 0;
+  if (small) return layOut(negative, shortestDigits<Word>(mantissa, exponent, atPowerOfTwo));
+  return layOut(negative, shortestDigits<Natural<kLimbs>>(mantissa, exponent, atPowerOfTwo));
 }
 
 }  // namespace

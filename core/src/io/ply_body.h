@@ -13,7 +13,25 @@
 namespace quadmark::io {
 
 /// Why a value could not be read; which value is known to the caller.
-enum class PlyFault : std::uint8_t { none, truncated, notANumber };
+enum class PlyFault : std::uint8_t { none, truncated, notANumber, listTooLong };
+
+/// Reads a list's length and checks it against the bytes left.
+template <class Cursor>
+bool readListLength(Cursor& cursor, const PlyProperty& property, std::uint64_t& length) {
+  std::int64_t value = 0;
+  if (!cursor.readInteger(property.countType, value)) return false;
+  length = static_cast<std::uint64_t>(value);
+  if (value >= 0 && length <= cursor.itemsLeft(property.type)) return true;
+  return cursor.fail(PlyFault::listTooLong);
+}
+
+/// Skips one property of one row, list or scalar.
+template <class Cursor>
+bool skipProperty(Cursor& cursor, const PlyProperty& property) {
+  std::uint64_t count = 1;
+  if (property.isList && !readListLength(cursor, property, count)) return false;
+  return cursor.skip(property.type, count);
+}
 
 class BinaryPlyCursor {
  public:
@@ -22,6 +40,7 @@ class BinaryPlyCursor {
 
   [[nodiscard]] std::size_t position() const { return static_cast<std::size_t>(at_ - file_); }
   [[nodiscard]] const std::uint8_t* current() const { return at_; }
+  [[nodiscard]] ByteOrder order() const { return order_; }
   [[nodiscard]] std::uint64_t bytesLeft() const { return static_cast<std::uint64_t>(end_ - at_); }
   [[nodiscard]] PlyFault fault() const { return fault_; }
   [[nodiscard]] std::string place() const { return "byte " + std::to_string(position()); }
@@ -65,11 +84,12 @@ class BinaryPlyCursor {
     return true;
   }
 
- private:
   bool fail(PlyFault fault) {
     fault_ = fault;
     return false;
   }
+
+ private:
   const std::uint8_t* take(std::size_t count) {
     if (static_cast<std::size_t>(end_ - at_) < count) {
       fault_ = PlyFault::truncated;
@@ -140,10 +160,7 @@ class TextPlyCursor {
     const std::string_view text = word();
     if (text.empty()) return false;
     const std::optional<std::int64_t> number = parseInteger(text);
-    if (!number || isFloating(type)) {
-      fault_ = PlyFault::notANumber;
-      return false;
-    }
+    if (!number || isFloating(type)) return fail(PlyFault::notANumber);
     value = *number;
     return true;
   }
@@ -151,11 +168,7 @@ class TextPlyCursor {
   bool readFloating(PlyType type, double& value) {
     const std::string_view text = word();
     if (text.empty()) return false;
-    if (!parseText(type, text, value)) {
-      fault_ = PlyFault::notANumber;
-      return false;
-    }
-    return true;
+    return parseText(type, text, value) || fail(PlyFault::notANumber);
   }
 
   /// The value a word has in a property of a floating type: rounded once, to that type.
@@ -168,6 +181,11 @@ class TextPlyCursor {
     const std::optional<double> number = parseDouble(text);
     if (number) value = *number;
     return number.has_value();
+  }
+
+  bool fail(PlyFault fault) {
+    fault_ = fault;
+    return false;
   }
 
   static bool isBlank(std::uint8_t byte) { return byte == ' ' || (byte >= '\t' && byte <= '\r'); }

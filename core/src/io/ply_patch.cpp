@@ -29,14 +29,6 @@ std::string spell(PlyType type, double value) {
   return type == PlyType::float32 ? formatShortest(static_cast<float>(value)) : formatShortest(value);
 }
 
-/// Skips one property of one row, list or scalar.
-template <class Cursor>
-bool skipRowProperty(Cursor& cursor, const PlyProperty& property) {
-  std::int64_t count = 1;
-  if (property.isList && !cursor.readInteger(property.countType, count)) return false;
-  return count >= 0 && cursor.skip(property.type, static_cast<std::uint64_t>(count));
-}
-
 }  // namespace
 
 Result<PatchedFile> PlyModel::patch(std::span<const std::uint8_t> file, const Resources&,
@@ -74,7 +66,7 @@ Result<PatchedFile> PlyModel::patchBinary(Bytes file, std::span<const double> po
     for (std::uint64_t row = 0; row < element.count; ++row) {
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const std::size_t at = cursor.position();
-        if (!skipRowProperty(cursor, element.properties[i])) return notTheFile();
+        if (!skipProperty(cursor, element.properties[i])) return notTheFile();
         const int axis = axisOf(axisProperty_, i);
         if (axis < 0) continue;
         allowed.add(at, width, width, 1);
@@ -102,7 +94,7 @@ Result<PatchedFile> PlyModel::patchText(Bytes file, std::span<const double> posi
       const PlyProperty& property = element.properties[i];
       const int axis = axisOf(axisProperty_, i);
       if (axis < 0) {
-        if (!skipRowProperty(cursor, property)) return notTheFile();
+        if (!skipProperty(cursor, property)) return notTheFile();
         continue;
       }
       double value = 0;
@@ -142,7 +134,7 @@ Status PlyModel::checkPatchedText(Bytes file, Bytes patched, std::span<const dou
       const PlyProperty& property = element.properties[i];
       const int axis = axisOf(axisProperty_, i);
       if (axis < 0) {
-        if (!skipRowProperty(before, property) || !skipRowProperty(after, property)) return failed(row);
+        if (!skipProperty(before, property) || !skipProperty(after, property)) return failed(row);
         continue;
       }
       double value = 0;

@@ -28,37 +28,14 @@ namespace {
 template <class Cursor>
 Error faultAt(const Cursor& cursor, const std::string& element, std::uint64_t row, const PlyProperty& property) {
   const std::string where = element + " " + std::to_string(row) + ", property " + quoted(property.name);
-  if (cursor.fault() == PlyFault::truncated) {
-    return badFile("PLY: the file ends (" + cursor.place() + ") inside " + where);
+  switch (cursor.fault()) {
+    case PlyFault::truncated: return badFile("PLY: the file ends (" + cursor.place() + ") inside " + where);
+    case PlyFault::listTooLong:
+      return badFile("PLY " + cursor.place() + ": " + where + ": the list's length does not fit into the rest of the file");
+    default:
+      return badFile("PLY " + cursor.place() + ": " + where + ": " + quoted(cursor.lastText()) +
+                     " is not a number of its type");
   }
-  return badFile("PLY " + cursor.place() + ": " + where + ": " + quoted(cursor.lastText()) + " is not a number of its type");
-}
-
-/// Reads a list's length and checks it against the bytes left.
-template <class Cursor>
-Result<std::uint64_t> readListLength(Cursor& cursor, const PlyElement& element, std::uint64_t row,
-                                     const PlyProperty& property) {
-  std::int64_t length = 0;
-  if (!cursor.readInteger(property.countType, length)) return faultAt(cursor, element.name, row, property);
-  if (length < 0 || static_cast<std::uint64_t>(length) > cursor.itemsLeft(property.type)) {
-    return badFile("PLY " + cursor.place() + ": " + element.name + " " + std::to_string(row) + ", property " +
-                   quoted(property.name) + ": a list of " + std::to_string(length) +
-                   " items does not fit into the rest of the file");
-  }
-  return static_cast<std::uint64_t>(length);
-}
-
-/// Skips one property of one row.
-template <class Cursor>
-Status skipProperty(Cursor& cursor, const PlyElement& element, std::uint64_t row, const PlyProperty& property) {
-  std::uint64_t count = 1;
-  if (property.isList) {
-    const Result<std::uint64_t> length = readListLength(cursor, element, row, property);
-    if (!length) return length.error();
-    count = *length;
-  }
-  if (!cursor.skip(property.type, count)) return faultAt(cursor, element.name, row, property);
-  return okStatus();
 }
 
 template <class Cursor>
@@ -69,7 +46,7 @@ Status skipElement(Cursor& cursor, const PlyElement& element) {
   }
   for (std::uint64_t row = 0; row < element.count; ++row) {
     for (const PlyProperty& property : element.properties) {
-      if (Status status = skipProperty(cursor, element, row, property); !status) return status;
+      if (!skipProperty(cursor, property)) return faultAt(cursor, element.name, row, property);
     }
   }
   return okStatus();
@@ -91,6 +68,19 @@ Status readFixedRows(const std::uint8_t* rows, std::uint64_t count, std::uint64_
     }
   }
   return okStatus();
+}
+
+/// The common case of a face list, 4-byte indices: adds corners until one is out of range, which is left to the caller.
+std::uint64_t addCorners(BinaryPlyCursor& cursor, std::uint64_t length, std::uint64_t vertexCount, FaceCollector& faces) {
+  const std::uint8_t* item = cursor.current();
+  std::uint64_t added = 0;
+  for (; added < length; ++added, item += 4) {
+    const std::uint32_t vertex = load<std::uint32_t>(item, cursor.order());
+    if (vertex >= vertexCount) break;
+    faces.addCorner(vertex);
+  }
+  cursor.skip(PlyType::uint32, added);
+  return added;
 }
 
 }  // namespace
@@ -140,7 +130,7 @@ Status PlyModel::readVertices(Cursor& cursor, const PlyElement& element) {
       const PlyProperty& property = element.properties[i];
       const int axis = axisOf(axisProperty_, i);
       if (axis < 0) {
-        if (Status status = skipProperty(cursor, element, row, property); !status) return status;
+        if (!skipProperty(cursor, property)) return faultAt(cursor, element.name, row, property);
         continue;
       }
       if (!cursor.readFloating(property.type, position[axis])) return faultAt(cursor, element.name, row, property);
@@ -181,14 +171,18 @@ Status PlyModel::readFaces(Cursor& cursor, const PlyElement& element, bool isLas
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       if (static_cast<int>(i) != list) {
-        if (Status status = skipProperty(cursor, element, row, property); !status) return status;
+        if (!skipProperty(cursor, property)) return faultAt(cursor, element.name, row, property);
         continue;
       }
-      const Result<std::uint64_t> length = readListLength(cursor, element, row, property);
-      if (!length) return length.error();
-      faces.reserve(static_cast<std::size_t>(strips ? 3 * *length : *length));
+      std::uint64_t length = 0;
+      if (!readListLength(cursor, property, length)) return faultAt(cursor, element.name, row, property);
+      faces.reserve(static_cast<std::size_t>(strips ? 3 * length : length));
       faces.restartStrip();
-      for (std::uint64_t item = 0; item < *length; ++item) {
+      std::uint64_t done = 0;
+      if constexpr (std::is_same_v<Cursor, BinaryPlyCursor>) {
+        if (!strips && sizeBytes(property.type) == 4) done = addCorners(cursor, length, vertexCount, faces);
+      }
+      for (std::uint64_t item = done; item < length; ++item) {
         std::int64_t vertex = 0;
         if (!cursor.readInteger(property.type, vertex)) return faultAt(cursor, element.name, row, property);
         const bool restart = vertex == -1 || (vertex == 0xffffffff && property.type == PlyType::uint32);
@@ -202,8 +196,8 @@ Status PlyModel::readFaces(Cursor& cursor, const PlyElement& element, bool isLas
         } else {
           faces.addCorner(static_cast<std::uint32_t>(vertex));
         }
-        if (faces.overflows()) return tooLarge("PLY: more than 4294967295 face corners");
       }
+      if (faces.overflows()) return tooLarge("PLY: more than 4294967295 face corners");
       if (!strips) faces.endPolygon();
     }
   }

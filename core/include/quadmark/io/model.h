@@ -27,7 +27,9 @@ using Resources = std::map<std::string, std::vector<std::uint8_t>>;
 struct PatchedFile {
   std::vector<std::uint8_t> bytes;
   Resources resources;             ///< only the changed ones, by the same URI
-  std::uint64_t bytesChanged = 0;  ///< bytes that differ from the input, main file and resources together
+  /// Bytes that differ from the input, main file and resources together; where a number's text got longer or shorter,
+  /// the difference in length counts too.
+  std::uint64_t bytesChanged = 0;
 };
 
 /// Facts about the file for reports, each a plain sentence fragment or number.
@@ -63,7 +65,9 @@ class Model {
   /// spelling too.
   /// @param file, resources  the same bytes that were read.
   /// @param positions        3 per vertex of mesh(), already representable in the file's precision.
-  /// @return the new file, or `internal` if the self-check finds a difference outside the allowed spans.
+  /// @return the new file. Fails with badOption (positions of another number or precision, or not the bytes that were
+  ///         read), unsupportedFile (positions share bytes with other data; info().warnings already says so) or
+  ///         internal (the self-check found a difference outside the allowed spans).
   [[nodiscard]] virtual Result<PatchedFile> patch(std::span<const std::uint8_t> file, const Resources& resources,
                                                   std::span<const double> positions) const = 0;
 
@@ -78,7 +82,9 @@ class Model {
 /// Fails with badFile (wrong magic, truncated, lying counts; the message names the place such as
 /// "accessor 3: byteOffset 412 exceeds bufferView 1 (400 bytes)"), unsupportedFile (valid but not handled yet),
 /// badMesh (no triangles, NaN or infinite position: names the vertex), tooLarge.
-/// Allocates no more than a small multiple of the input's size, whatever the file claims.
+/// Allocates no more than a small multiple of the input's size, whatever the file claims. Parts that positions do not
+/// depend on may be broken. Bytes behind the file's proper end are ignored with a warning: viewers ignore them too, so
+/// they must not hide a mark.
 [[nodiscard]] Result<std::unique_ptr<Model>> readModel(std::span<const std::uint8_t> file, const Resources& resources = {});
 
 /// The URIs of external buffers a glTF refers to (not images), so that a caller can fetch them before readModel().
