@@ -6,25 +6,11 @@ import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { decodeImage, encodeImage } from 'quadmark';
 import { generate } from 'quadmark/lab';
+import { drawEmblem } from './support/emblem.mjs';
 
 const repository = resolve(dirname(fileURLToPath(import.meta.url)), '..');
 const folder = join(repository, 'build/demo');
 const SIZE = 24;
-
-/** A ring with a tail: the letter Q, drawn by its equation. */
-function drawLogo() {
-  const bits = new Uint8Array(SIZE * SIZE);
-  for (let y = 0; y < SIZE; ++y) {
-    for (let x = 0; x < SIZE; ++x) {
-      const u = (x + 0.5) / SIZE - 0.48, v = (y + 0.5) / SIZE - 0.47;
-      const distance = Math.sqrt(u * u + v * v);
-      const ring = distance > 0.27 && distance < 0.42;
-      const tail = u > 0.06 && v > 0.06 && u < 0.46 && Math.abs(u - v) < 0.085;
-      bits[y * SIZE + x] = ring || tail ? 1 : 0;
-    }
-  }
-  return { width: SIZE, height: SIZE, bits };
-}
 
 /** Two rows of pixels per line of text; unread pixels (mid grey) as a shade. */
 function textArt(levels, width, height) {
@@ -70,7 +56,7 @@ function printTable(rows) {
 async function main() {
   rmSync(folder, { recursive: true, force: true });
   mkdirSync(folder, { recursive: true });
-  const logo = drawLogo();
+  const logo = drawEmblem(SIZE);
   writeFileSync(join(folder, 'logo.png'), await encodeImage(logo));
   const model = await generate({ name: 'sculpture', vertices: 35000, format: 'glb' });
   writeFileSync(join(folder, 'sculpture.glb'), model.bytes);
