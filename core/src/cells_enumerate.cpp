@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The decoder's enumeration of coplanar sets: all of them, so that nothing depends on the order of the vertices.
 #include <cmath>
+#include <utility>
 
 #include "quadmark/cells.h"
 #include "ring_sets.h"
@@ -32,6 +33,13 @@ class UniqueSets {
   std::vector<std::uint32_t> head_;
   std::vector<Entry> entries_;
 };
+
+void sortFour(std::uint32_t ids[4]) {
+  const auto order = [&](int i, int j) {
+    if (ids[j] < ids[i]) std::swap(ids[i], ids[j]);
+  };
+  order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+}
 
 }  // namespace
 
@@ -101,11 +109,12 @@ void forEachCoplanarSet(const WeldedMesh& welded, const std::vector<double>& pos
     const double largest = 1.0001 * reach * 4 * radius2;
     ring.forEach(largest, [&](int a, int b, int c, int d, double) {
       std::uint32_t ids[4] = {ring.vertex(a), ring.vertex(b), ring.vertex(c), ring.vertex(d)};
+      sortFour(ids);
+      if (!unique.insert(ids)) return;  // cheaper than the geometry, and a cell is seen from four seeds on average
       Quad quad;
-      if (!makeQuad(ids, positions.data(), kMinTriangleReading, quad)) return;
-      if (!limit.admits(quad, rounding.unit(quad, positions.data()))) return;
-      std::sort(ids, ids + 4);
-      if (unique.insert(ids)) visit(quad);
+      if (makeQuad(ids, positions.data(), kMinTriangleReading, quad) &&
+          limit.admits(quad, rounding.unit(quad, positions.data())))
+        visit(quad);
     });
   }
 }

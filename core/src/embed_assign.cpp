@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <numeric>
 
 #include "embedder.h"
@@ -17,6 +18,28 @@ namespace {
 
 constexpr std::size_t kWindow = 32;
 constexpr std::size_t kScarceRepeats = 8;
+
+// For each label met in a window, the ratio that each of the window's pieces asks for: what makes the cost table a plain
+// loop over numbers.
+class LabelRows {
+ public:
+  template <class RatioOf>
+  const std::array<double, kWindow>& find(std::uint32_t prefix1, std::uint32_t prefix2, const RatioOf& ratioOf) {
+    const std::uint64_t label = std::uint64_t{prefix1} << 32 | prefix2;
+    const auto at = std::find(labels_.begin(), labels_.end(), label);
+    const auto row = static_cast<std::size_t>(at - labels_.begin());
+    if (at == labels_.end()) {
+      labels_.push_back(label);
+      rows_.emplace_back();
+      for (std::size_t j = 0; j < kWindow; ++j) rows_.back()[j] = ratioOf(j);
+    }
+    return rows_[row];
+  }
+
+ private:
+  std::vector<std::uint64_t> labels_;
+  std::deque<std::array<double, kWindow>> rows_;
+};
 
 std::uint64_t spread(std::uint64_t x) {  // two zero bits between the lower 21 bits
   x &= 0x1fffff;
@@ -131,28 +154,30 @@ void Embedder::assignWindow(std::span<std::uint32_t> cells, std::uint32_t firstP
   const std::size_t n = cells.size();
   std::array<float, kWindow * kWindow> cost;
   const DigitSlot &index = codec_.indexSlot(), &piece = codec_.pieceSlot();
+  LabelRows rows;
   for (std::size_t i = 0; i < n; ++i) {
     const Quad& q = cells_[cells[i]].quad;
     const bool acFirst = q.ratioAC <= q.ratioBD;
     const double r1 = acFirst ? q.ratioAC : q.ratioBD, r2 = acFirst ? q.ratioBD : q.ratioAC;
     const double w1 = acFirst ? q.lengthAC : q.lengthBD, w2 = acFirst ? q.lengthBD : q.lengthAC;
     const std::uint32_t natural1 = index.read(r1).prefix, natural2 = piece.read(r2).prefix;
-    for (std::size_t j = 0; j < n; ++j) {
-      const auto p = static_cast<std::uint32_t>(firstPiece + j);
-      double best = 1e30;
-      // Of each ratio the present prefix and the neighbour on the nearer side; plan() will look further.
-      const double inside1 = index.centre(natural1, p) - r1;
-      const std::uint32_t other1 = inside1 < 0 ? natural1 + 1 : natural1 - (natural1 > 0);
-      for (const std::uint32_t p1 : {natural1, other1}) {
-        const double to1 = index.centre(p1, p), d1 = (to1 - r1) * w1;
-        if (d1 * d1 >= best) continue;
-        for (std::uint32_t p2 = std::max(natural2 - (natural2 > 0), p1); p2 <= natural2 + 1; ++p2) {
-          const double to2 = piece.centre(p2, padded_(p, p1, p2)), d2 = (to2 - r2) * w2;
-          if (codec_.ordered(to1, to2) && to2 <= piece.maxRatio()) best = std::min(best, d1 * d1 + d2 * d2);
+    std::array<double, kWindow> best;
+    best.fill(1e30);
+    // The present prefixes and their neighbours; plan() will look further. Among them the order of the ratios decides.
+    for (std::uint32_t p1 = natural1 - (natural1 > 0); p1 <= natural1 + 1; ++p1)
+      for (std::uint32_t p2 = std::max(natural2 - (natural2 > 0), p1); p2 <= natural2 + 1; ++p2) {
+        const std::array<double, kWindow>& to2 = rows.find(p1, p2, [&](std::size_t j) {
+          return j < n ? piece.centre(p2, padded_(static_cast<std::uint32_t>(firstPiece + j), p1, p2)) : 1.0;
+        });
+        const double from1 = index.centre(p1, firstPiece), step = index.cellWidth(), least = 2 * codec_.coarserCell();
+        for (std::size_t j = 0; j < n; ++j) {
+          const double to1 = from1 + static_cast<double>(j) * step;
+          const double d1 = (to1 - r1) * w1, d2 = (to2[j] - r2) * w2, c = d1 * d1 + d2 * d2;
+          const bool legal = to2[j] - to1 >= least && to2[j] <= piece.maxRatio();
+          best[j] = legal && c < best[j] ? c : best[j];
         }
       }
-      cost[i * n + j] = static_cast<float>(best);
-    }
+    for (std::size_t j = 0; j < n; ++j) cost[i * n + j] = static_cast<float>(best[j]);
   }
   std::array<std::uint32_t, kWindow> chosen;
   std::array<bool, kWindow> taken{};

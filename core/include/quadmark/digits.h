@@ -71,6 +71,9 @@ class PairCodec {
   [[nodiscard]] int bitsPerPiece() const { return 3 * piece_.digitCount(); }
   [[nodiscard]] std::uint32_t pieces() const { return pieces_; }
 
+  /// Width of the wider of the two digit cells.
+  [[nodiscard]] double coarserCell() const { return coarserCell_; }
+
   /// Reads both ratios of a cell, given in any order, each already measured from its nearer end.
   [[nodiscard]] Reading read(double ratioA, double ratioB) const;
 
@@ -85,7 +88,7 @@ class PairCodec {
   [[nodiscard]] double chanceOf(std::uint32_t indexCode, std::uint32_t pieceCode) const;
 
   DigitSlot index_, piece_;
-  double coarserCell_;  ///< width of the wider digit cell
+  double coarserCell_;
   std::uint32_t pieces_;
 };
 
