@@ -270,7 +270,10 @@ Result<GltfDocument> readGltfDocument(std::string_view json, std::size_t jsonBeg
   document.version = sections.asset.find("version").asString();
   if (document.version.empty()) return badFile("glTF: asset.version is missing");
   if (document.version.substr(0, 2) != "2.") return unsupportedFile("glTF version " + quoted(document.version));
-  sections.extensionsUsed.forEachElement([&](JsonValue name) { document.extensionsUsed.push_back(name.asString()); });
+  constexpr std::size_t kMostExtensions = 1000;  // for the report only; no sane file comes near
+  sections.extensionsUsed.forEachElement([&](JsonValue name) {
+    if (name.isString() && document.extensionsUsed.size() < kMostExtensions) document.extensionsUsed.push_back(name.asString());
+  });
 
   const struct { const char* name; JsonValue array; } arrays[] = {{"buffers", sections.buffers},
                                                                   {"bufferViews", sections.bufferViews},

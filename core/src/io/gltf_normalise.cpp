@@ -7,6 +7,9 @@
 #define TINYGLTF_NO_FS
 #include <tiny_gltf.h>
 
+#include <set>
+#include <tuple>
+
 namespace quadmark::io {
 namespace {
 
@@ -82,13 +85,15 @@ class Writer {
     }
   }
 
-  /// One mesh per primitive: nothing but the pairing of accessors matters here.
+  /// One mesh per primitive, equal ones once: nothing but the pairing of accessors matters here.
   void writeMeshes() {
+    std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> seen;
     for (std::size_t i = 0; i < document_.primitives.size(); ++i) {
       const GltfPrimitive& primitive = document_.primitives[i];
       const bool indexed = primitive.indices != kNone;
       if (!primitive.hasTriangles() || accessorNumber_[primitive.position] == kNone) continue;
       if (indexed && accessorNumber_[primitive.indices] == kNone) continue;
+      if (!seen.emplace(primitive.position, primitive.indices, primitive.mode).second) continue;
       beginItem(draft_.primitives.empty());
       draft_.text += R"("primitives":[{"attributes":{)";
       member("POSITION", accessorNumber_[primitive.position]);

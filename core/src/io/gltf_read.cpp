@@ -144,7 +144,8 @@ Status GltfModel::readFaces(const GltfDocument& document, const std::vector<Buff
       source.componentType = accessor.componentType;
       source.count = accessor.count;
     }
-    if (primitive.mode == 4 && source.count % 3 != 0) {
+    constexpr std::size_t kMostWarnings = 200;
+    if (primitive.mode == 4 && source.count % 3 != 0 && info_.warnings.size() < kMostWarnings) {
       info_.warnings.push_back(primitive.place() + ": " + std::to_string(source.count) +
                                " corners are not a multiple of 3; the rest is passed through");
     }

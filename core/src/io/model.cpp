@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "quadmark/io/model.h"
 
-#include <algorithm>
+#include <set>
 
 #include "bytes.h"
 #include "data_uri.h"
@@ -36,11 +36,12 @@ Result<std::vector<std::string>> externalUris(std::span<const std::uint8_t> file
   if (!container) return container.error();
   const Result<io::JsonValue> root = io::parseJson(container->json(file));
   if (!root) return root.error();
+  std::set<std::string> seen;
   root->find("buffers").forEachElement([&](io::JsonValue buffer) {
     const io::JsonValue uri = buffer.find("uri");
     if (!uri.isString() || io::isDataUri(io::unescapeJson(uri.text().substr(1, 64)))) return;
     std::string text = uri.asString();
-    if (std::find(uris.begin(), uris.end(), text) == uris.end()) uris.push_back(std::move(text));
+    if (seen.insert(text).second) uris.push_back(std::move(text));
   });
   return uris;
 }
