@@ -19,13 +19,21 @@ void* operator new(std::size_t size) {
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
 
 namespace quadmark::test {
 
-void resetLargestAllocation() { largestRequest = 0; }
-std::size_t largestAllocation() { return largestRequest; }
+void resetLargestAllocation() {
+  largestRequest = 0;
+}
+std::size_t largestAllocation() {
+  return largestRequest;
+}
 
 }  // namespace quadmark::test
 

@@ -17,8 +17,12 @@ namespace quadmark::test {
 
 using FileBytes = std::vector<std::uint8_t>;
 
-inline FileBytes bytesOf(std::string_view text) { return {text.begin(), text.end()}; }
-inline std::string textOf(const FileBytes& bytes) { return {bytes.begin(), bytes.end()}; }
+inline FileBytes bytesOf(std::string_view text) {
+  return {text.begin(), text.end()};
+}
+inline std::string textOf(const FileBytes& bytes) {
+  return {bytes.begin(), bytes.end()};
+}
 
 /// Replaces every occurrence of a placeholder.
 inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -49,12 +53,13 @@ inline void appendScalar(FileBytes& out, const std::string& type, double value, 
 
 /// Coordinates of a bumpy 3 x 3 grid and its faces: four quads of which two are cut into triangles.
 inline const std::vector<double>& gridPositions() {
-  static const std::vector<double> positions = {0, 0, 0.125, 1, 0, -0.5,  2, 0, 0.25, 0,     1, 0.75, 1.0625,
-                                                1, 0, 2, 1, -0.25, 0, 2, 0, 1,    2,    0.5, 2,    2,    -1};
+  static const std::vector<double> positions = {0, 0, 0.125, 1,     0, -0.5, 2, 0, 0.25, 0,   1, 0.75, 1.0625, 1,
+                                                0, 2, 1,     -0.25, 0, 2,    0, 1, 2,    0.5, 2, 2,    -1};
   return positions;
 }
 inline const std::vector<std::vector<int>>& gridPolygons() {
-  static const std::vector<std::vector<int>> faces = {{0, 1, 4, 3}, {1, 2, 4}, {2, 5, 4}, {3, 4, 6}, {4, 7, 6}, {4, 5, 8, 7}};
+  static const std::vector<std::vector<int>> faces = {{0, 1, 4, 3}, {1, 2, 4}, {2, 5, 4},
+                                                      {3, 4, 6},    {4, 7, 6}, {4, 5, 8, 7}};
   return faces;
 }
 inline const std::vector<std::vector<int>>& gridTriangles() {
@@ -87,7 +92,8 @@ class PlyWriter {
     const std::string xyz = "property " + spec_.coordinate + " ";
     if (spec_.extras) {
       header("vertex", spec_.positions.size() / 3,
-             {"property uchar red", xyz + "x", "property list int float weights", xyz + "z", "property int8 flag", xyz + "y"});
+             {"property uchar red", xyz + "x", "property list int float weights", xyz + "z", "property int8 flag",
+              xyz + "y"});
     } else {
       header("vertex", spec_.positions.size() / 3, {xyz + "x", xyz + "y", xyz + "z"});
     }
@@ -111,7 +117,8 @@ class PlyWriter {
   }
   void scalar(const std::string& type, double value) {
     if (spec_.encoding != "ascii") {
-      appendScalar(out_, type, value, spec_.encoding == "binary_big_endian" ? io::ByteOrder::big : io::ByteOrder::little);
+      appendScalar(out_, type, value,
+                   spec_.encoding == "binary_big_endian" ? io::ByteOrder::big : io::ByteOrder::little);
       return;
     }
     char text[40];
@@ -157,7 +164,9 @@ class PlyWriter {
   FileBytes out_;
 };
 
-inline FileBytes makePly(const PlySpec& spec) { return PlyWriter(spec).write(); }
+inline FileBytes makePly(const PlySpec& spec) {
+  return PlyWriter(spec).write();
+}
 
 /// A buffer that tests fill piece by piece.
 struct BufferBuilder {
@@ -183,7 +192,9 @@ inline FileBytes makeGlb(std::string json, FileBytes bin = {}) {
   while (json.size() % 4 != 0) json += ' ';
   while (bin.size() % 4 != 0) bin.push_back(0);
   FileBytes out;
-  const auto word = [&](std::size_t value) { appendScalar(out, "uint", static_cast<double>(value), io::ByteOrder::little); };
+  const auto word = [&](std::size_t value) {
+    appendScalar(out, "uint", static_cast<double>(value), io::ByteOrder::little);
+  };
   word(0x46546c67);
   word(2);
   word(12 + 8 + json.size() + (bin.empty() ? 0 : 8 + bin.size()));

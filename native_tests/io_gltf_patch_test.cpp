@@ -101,13 +101,15 @@ TEST(PatchGltf, PadsTheJsonChunkForEveryTextLength) {
 }
 
 TEST(PatchGltf, KeepsBoundsThatWereWrongOrBroken) {
-  for (const std::string& bounds : {std::string(R"("min":[0,0,-7],"max":[2,2,7])"), std::string(R"("min":[0,0],"max":"x")"),
-                                    std::string(R"("min":[null,[0],-1.000],"max":{})")}) {
+  for (const std::string& bounds :
+       {std::string(R"("min":[0,0,-7],"max":[2,2,7])"), std::string(R"("min":[0,0],"max":"x")"),
+        std::string(R"("min":[null,[0],-1.000],"max":{})")}) {
     const GridGltf file = gridGltf();
     const std::string json = replaced(file.json, R"("min":[0, 0.0,-1.000],"max":[2,2e0 ,0.75])", bounds);
     EXPECT_EQ(patchOk(makeGlb(json, file.bin), movedInside()).bytes, makeGlb(json, binWith(movedInside())));
     const PatchedFile patched = patchOk(makeGlb(json, file.bin), movedBounds());
-    const std::string expected = replaced(replaced(json, "-1.000", "-1.1"), R"("min":[0,0,-7],"max":[2,2,7])", R"("min":[0,0,-1.1],"max":[1.9,2,7])");
+    const std::string expected = replaced(replaced(json, "-1.000", "-1.1"), R"("min":[0,0,-7],"max":[2,2,7])",
+                                          R"("min":[0,0,-1.1],"max":[1.9,2,7])");
     EXPECT_EQ(patched.bytes, makeGlb(expected, binWith(movedBounds())));
   }
 }
@@ -150,8 +152,10 @@ TEST(DataUri, KeepsUnusedBitsAndEscapesOfUnchangedQuads) {
   ASSERT_TRUE(before.ok()) << before.error().message;
   EXPECT_EQ(*before, (FileBytes{1, 2, 3, 255, 255, 4, 5}));
   EXPECT_EQ(*io::recodeDataUri(spelled, *before, "buffer 0"), spelled);
-  EXPECT_EQ(*io::recodeDataUri(spelled, FileBytes{1, 2, 3, 255, 255, 4, 9}, "buffer 0"), "data:;base64,AQ\\u0049D\\/\\/8ECQ==");
-  EXPECT_EQ(*io::recodeDataUri(spelled, FileBytes{1, 2, 3, 255, 0, 4, 5}, "buffer 0"), "data:;base64,AQ\\u0049D\\/wAEBR==");
+  EXPECT_EQ(*io::recodeDataUri(spelled, FileBytes{1, 2, 3, 255, 255, 4, 9}, "buffer 0"),
+            "data:;base64,AQ\\u0049D\\/\\/8ECQ==");
+  EXPECT_EQ(*io::recodeDataUri(spelled, FileBytes{1, 2, 3, 255, 0, 4, 5}, "buffer 0"),
+            "data:;base64,AQ\\u0049D\\/wAEBR==");
 }
 
 TEST(PatchGltf, WritesInterleavedComponentsOnly) {
@@ -169,7 +173,8 @@ TEST(PatchGltf, WritesInterleavedComponentsOnly) {
   json = replaced(json, "\"byteOffset\":108", "\"byteOffset\":" + std::to_string(indices));
   json = replaced(json, "156", std::to_string(before.bytes.size()));
   // Texture coordinates share the stride: neighbours, not a conflict.
-  json = replaced(json, R"("type":"SCALAR"})", R"("type":"SCALAR"},{"bufferView":0,"byteOffset":12,"componentType":5126,"count":9,"type":"VEC2"})");
+  json = replaced(json, R"("type":"SCALAR"})",
+                  R"("type":"SCALAR"},{"bufferView":0,"byteOffset":12,"componentType":5126,"count":9,"type":"VEC2"})");
   json = replaced(json, R"("POSITION":0)", R"("TEXCOORD_0":2,"POSITION":0)");
   EXPECT_EQ(patchOk(makeGlb(json, before.bytes), movedBounds()).bytes, makeGlb(withMovedBounds(json), after.bytes));
 }
@@ -187,7 +192,8 @@ TEST(PatchGltf, RefusesPositionsThatOtherDataShares) {
        {replaced(gridGltf().json, R"("POSITION":0)", R"("NORMAL":0,"POSITION":0)"),
         replaced(gridGltf().json, R"("indices":1,)", R"("indices":1,"targets":[{"POSITION":0}],)"),
         replaced(shared("", copy), R"("POSITION":0)", R"("NORMAL":2,"POSITION":0)"), shared("", shifted),
-        shared(R"("animations":[{"samplers":[{"input":0,"output":0}]}],)"), shared(R"("images":[{"bufferView":0}],)")}) {
+        shared(R"("animations":[{"samplers":[{"input":0,"output":0}]}],)"),
+        shared(R"("images":[{"bufferView":0}],)")}) {
     const FileBytes file = makeGlb(json, gridGltf().bin);
     const auto model = readOk(file);
     ASSERT_EQ(model->info().warnings.size(), 1u);
@@ -195,17 +201,20 @@ TEST(PatchGltf, RefusesPositionsThatOtherDataShares) {
     const Result<PatchedFile> patched = model->patch(file, {}, movedInside());
     ASSERT_FALSE(patched.ok());
     EXPECT_EQ(patched.error().code, ErrorCode::unsupportedFile);
-    EXPECT_NE(patched.error().message.find("accessor 0 (POSITION) shares bytes with"), std::string::npos) << patched.error().message;
+    EXPECT_NE(patched.error().message.find("accessor 0 (POSITION) shares bytes with"), std::string::npos)
+        << patched.error().message;
   }
 }
 
 TEST(PatchGltf, KeepsTheBoundsOfAllWindowsTrue) {
   // Accessor 2 shows the last row to a second primitive, accessor 3 the whole grid as points.
   std::string json = gridGltf().json;
-  json = replaced(json, R"("type":"SCALAR"})",
-                  R"("type":"SCALAR"},{"bufferView":0,"byteOffset":72,"componentType":5126,"count":3,"type":"VEC3","min":[0,2,-1],"max":[2,2,1]},)"
-                  R"({"bufferView":0,"componentType":5126,"count":9,"type":"VEC3","min":[0,0,-1],"max":[2,2,1]})");
-  json = replaced(json, R"("primitives":[)", R"("primitives":[{"attributes":{"POSITION":2}},{"attributes":{"POSITION":3},"mode":0},)");
+  json = replaced(
+      json, R"("type":"SCALAR"})",
+      R"("type":"SCALAR"},{"bufferView":0,"byteOffset":72,"componentType":5126,"count":3,"type":"VEC3","min":[0,2,-1],"max":[2,2,1]},)"
+      R"({"bufferView":0,"componentType":5126,"count":9,"type":"VEC3","min":[0,0,-1],"max":[2,2,1]})");
+  json = replaced(json, R"("primitives":[)",
+                  R"("primitives":[{"attributes":{"POSITION":2}},{"attributes":{"POSITION":3},"mode":0},)");
   const PatchedFile patched = patchOk(makeGlb(json, gridGltf().bin), [] {
     std::vector<double> positions = gridPositions();
     positions[3 * 8 + 2] = -2;   // in all three

@@ -73,7 +73,8 @@ TEST(ReadGltf, ReadsDataUrisInEverySpelling) {
   for (const std::string& uri :
        {"data:application/octet-stream;base64," + encoded, "data:application/gltf-buffer;base64," + encoded,
         "DATA:;BASE64," + encoded, "data:application\\/octet-stream;base64," + replaced(encoded, "/", "\\/"),
-        "data:;base64," + unpadded, "data:;base64," + replaced(encoded, "=", "%3D"), "data:;base64," + replaced(encoded, "A", "\\u0041")}) {
+        "data:;base64," + unpadded, "data:;base64," + replaced(encoded, "=", "%3D"),
+        "data:;base64," + replaced(encoded, "A", "\\u0041")}) {
     SCOPED_TRACE(uri.substr(0, 60));
     const GridGltf file = gridGltf("\"uri\":\"" + uri + "\",");
     const auto model = readOk(bytesOf("\xef\xbb\xbf\n " + file.json));
@@ -93,13 +94,15 @@ TEST(ReadGltf, ReadsDataUrisInEverySpelling) {
 }
 
 TEST(ReadGltf, ReadsIndicesOfEveryWidthAndNone) {
-  for (const auto& [type, code] : {std::pair{"uchar", "5121"}, std::pair{"ushort", "5123"}, std::pair{"uint", "5125"}}) {
+  for (const auto& [type, code] :
+       {std::pair{"uchar", "5121"}, std::pair{"ushort", "5123"}, std::pair{"uint", "5125"}}) {
     GridGltf file = gridGltf();
     BufferBuilder buffer;
     buffer.floats(gridPositions());
     buffer.indices(type, gridTriangles());
-    file.json = replaced(replaced(replaced(file.json, "5123", code), ":48", ":" + std::to_string(buffer.bytes.size() - 108)),
-                         "156", std::to_string(buffer.bytes.size()));
+    file.json =
+        replaced(replaced(replaced(file.json, "5123", code), ":48", ":" + std::to_string(buffer.bytes.size() - 108)),
+                 "156", std::to_string(buffer.bytes.size()));
     EXPECT_EQ(readOk(makeGlb(file.json, buffer.bytes))->mesh().faceVertices, flat(gridTriangles())) << type;
   }
   const auto soup = readOk(with("\"indices\":1,", ""));
@@ -132,7 +135,8 @@ TEST(ReadGltf, ReadsInterleavedPositionsAtTheirStride) {
   std::string json = gridGltf().json;
   json = replaced(json, R"("byteLength":108,"target":34962)", R"("byteLength":252,"byteStride":28)");
   json = replaced(json, "\"byteOffset\":108", "\"byteOffset\":" + std::to_string(indices));
-  json = replaced(json, R"("bufferView":0,"componentType":5126)", R"("bufferView":0,"byteOffset":12,"componentType":5126)");
+  json = replaced(json, R"("bufferView":0,"componentType":5126)",
+                  R"("bufferView":0,"byteOffset":12,"componentType":5126)");
   json = replaced(json, "156", std::to_string(buffer.bytes.size()));
   EXPECT_EQ(readOk(makeGlb(json, buffer.bytes))->mesh().positions, gridPositions());
 }
@@ -140,14 +144,16 @@ TEST(ReadGltf, ReadsInterleavedPositionsAtTheirStride) {
 /// Two meshes of one triangle each over a buffer of six positions.
 std::string twoMeshes(const std::string& accessors, const std::string& meshes) {
   return R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":72}],"bufferViews":[{"buffer":0,"byteLength":72}],"accessors":[)" +
-         accessors + R"(],"meshes":[)" + meshes + R"(],"nodes":[{"mesh":1,"name":"b"},{"name":"empty"},{"mesh":0},{"mesh":1}]})";
+         accessors + R"(],"meshes":[)" + meshes +
+         R"(],"nodes":[{"mesh":1,"name":"b"},{"name":"empty"},{"mesh":0},{"mesh":1}]})";
 }
 std::string accessor(int byteOffset, int count) {
   return R"({"bufferView":0,"byteOffset":)" + std::to_string(byteOffset) + R"(,"componentType":5126,"count":)" +
          std::to_string(count) + R"(,"type":"VEC3"})";
 }
 std::string meshOf(const std::string& positions) {
-  return R"({"primitives":[{"attributes":{"POSITION":)" + replaced(positions, ",", R"(}},{"attributes":{"POSITION":)") + "}}]}";
+  return R"({"primitives":[{"attributes":{"POSITION":)" + replaced(positions, ",", R"(}},{"attributes":{"POSITION":)") +
+         "}}]}";
 }
 FileBytes sixPositions() {
   BufferBuilder buffer;
@@ -156,7 +162,8 @@ FileBytes sixPositions() {
 }
 
 TEST(ReadGltf, NumbersMeshesAsGroups) {
-  const auto model = readOk(makeGlb(twoMeshes(accessor(36, 3) + "," + accessor(0, 3), meshOf("0") + "," + meshOf("1")), sixPositions()));
+  const auto model = readOk(
+      makeGlb(twoMeshes(accessor(36, 3) + "," + accessor(0, 3), meshOf("0") + "," + meshOf("1")), sixPositions()));
   EXPECT_EQ(model->mesh().groups, (std::vector<std::uint32_t>{0, 0, 0, 1, 1, 1}));
   EXPECT_EQ(model->vertexMesh(), (std::vector<std::uint32_t>{0, 0, 0, 1, 1, 1}));
   EXPECT_EQ(model->mesh().positions[2], 1);  // arrays come in the order of first use, not of bytes
@@ -178,7 +185,8 @@ TEST(ReadGltf, ReadsSharedPositionsOnceAndJoinsTheirMeshesToOneGroup) {
     EXPECT_TRUE(model->mesh().groups.empty());
     EXPECT_EQ(model->vertexMesh(), std::vector<std::uint32_t>(6, 0));
   }
-  const auto chained = readOk(makeGlb(twoMeshes(accessor(0, 4) + "," + accessor(36, 3), meshOf("0") + "," + meshOf("1")), sixPositions()));
+  const auto chained = readOk(
+      makeGlb(twoMeshes(accessor(0, 4) + "," + accessor(36, 3), meshOf("0") + "," + meshOf("1")), sixPositions()));
   EXPECT_EQ(chained->mesh().vertexCount(), 6u);
   EXPECT_TRUE(chained->mesh().groups.empty());
   EXPECT_EQ(chained->vertexMesh(), (std::vector<std::uint32_t>{0, 0, 0, 0, 1, 1}));
@@ -192,25 +200,28 @@ TEST(ReadGltf, TakesTheSameFacesOfTwoPrimitivesOnce) {
 }
 
 TEST(ReadGltf, RefusesPositionsThatOverlapWithAnotherLayout) {
-  expectRefused(makeGlb(twoMeshes(accessor(0, 3) + "," + accessor(4, 3), meshOf("0") + "," + meshOf("1")), sixPositions()),
-                ErrorCode::unsupportedFile, "accessor 0 and accessor 1 hold positions that overlap");
+  expectRefused(
+      makeGlb(twoMeshes(accessor(0, 3) + "," + accessor(4, 3), meshOf("0") + "," + meshOf("1")), sixPositions()),
+      ErrorCode::unsupportedFile, "accessor 0 and accessor 1 hold positions that overlap");
 }
 
 TEST(ReadGltf, TreatsTwoBuffersOfTheSameFileAsOne) {
   std::string json = twoMeshes(accessor(0, 6) + "," + replaced(accessor(0, 6), "\"bufferView\":0", "\"bufferView\":1"),
                                meshOf("0") + "," + meshOf("1"));
-  json = replaced(json, R"([{"byteLength":72}])", R"([{"byteLength":72,"uri":"a.bin"},{"byteLength":72,"uri":"./a.bin"}])");
+  json = replaced(json, R"([{"byteLength":72}])",
+                  R"([{"byteLength":72,"uri":"a.bin"},{"byteLength":72,"uri":"./a.bin"}])");
   json = replaced(json, R"("bufferViews":[)", R"("bufferViews":[{"buffer":1,"byteLength":72},)");
   const auto model = readOk(bytesOf(json), {{"a.bin", sixPositions()}});
   EXPECT_EQ(model->mesh().vertexCount(), 6u);
 }
 
 TEST(ReadGltf, PassesPointsLinesAndPrimitivesWithoutPositionThrough) {
-  const std::string points = R"({"attributes":{"POSITION":0},"mode":0},{"attributes":{"POSITION":77},"mode":1},{"attributes":{}},)";
+  const std::string points =
+      R"({"attributes":{"POSITION":0},"mode":0},{"attributes":{"POSITION":77},"mode":1},{"attributes":{}},)";
   const auto model = readOk(with(R"("primitives":[)", R"("primitives":[)" + points));
-  EXPECT_EQ(model->info().warnings,
-            (std::vector<std::string>{"mesh 0 primitive 0: POINTS are passed through", "mesh 0 primitive 1: LINES are passed through",
-                                      "mesh 0 primitive 2: no POSITION, passed through"}));
+  EXPECT_EQ(model->info().warnings, (std::vector<std::string>{"mesh 0 primitive 0: POINTS are passed through",
+                                                              "mesh 0 primitive 1: LINES are passed through",
+                                                              "mesh 0 primitive 2: no POSITION, passed through"}));
   EXPECT_EQ(model->mesh().faceCount(), 8u);
   expectRefused(with("\"indices\":1", "\"mode\":3"), ErrorCode::badMesh, "no triangles");
   expectRefused(with("\"POSITION\"", "\"NORMAL\""), ErrorCode::badMesh, "no triangles");
@@ -218,10 +229,16 @@ TEST(ReadGltf, PassesPointsLinesAndPrimitivesWithoutPositionThrough) {
 }
 
 TEST(ReadGltf, ReadsFilesWhoseOtherPartsAreBroken) {
-  const std::string others = R"({"bufferView":99,"componentType":1,"count":-1,"type":"VEC9"},7,null,{"bufferView":2,"componentType":5126,"count":4000000000,"type":"MAT4"})";
-  std::string json = replaced(gridGltf().json, R"("count":24,"type":"SCALAR"})", R"("count":24,"type":"SCALAR"},)" + others);
-  json = replaced(json, R"("byteOffset":108,"byteLength":48})", R"("byteOffset":108,"byteLength":48},{"buffer":5},{},"x",{"buffer":0,"byteOffset":155,"byteLength":99})");
-  json = replaced(json, R"("nodes":[)", R"("images":[{"uri":"x.png"},{"bufferView":4},{"bufferView":3}],"skins":5,"animations":[{"samplers":7}],"nodes":[)");
+  const std::string others =
+      R"({"bufferView":99,"componentType":1,"count":-1,"type":"VEC9"},7,null,{"bufferView":2,"componentType":5126,"count":4000000000,"type":"MAT4"})";
+  std::string json =
+      replaced(gridGltf().json, R"("count":24,"type":"SCALAR"})", R"("count":24,"type":"SCALAR"},)" + others);
+  json = replaced(
+      json, R"("byteOffset":108,"byteLength":48})",
+      R"("byteOffset":108,"byteLength":48},{"buffer":5},{},"x",{"buffer":0,"byteOffset":155,"byteLength":99})");
+  json = replaced(
+      json, R"("nodes":[)",
+      R"("images":[{"uri":"x.png"},{"bufferView":4},{"bufferView":3}],"skins":5,"animations":[{"samplers":7}],"nodes":[)");
   const auto model = readOk(makeGlb(json, gridGltf().bin));
   ASSERT_NE(model, nullptr);
   EXPECT_EQ(model->mesh().faceCount(), 8u);
@@ -233,35 +250,46 @@ TEST(ReadGltf, RefusesWhatThisVersionCannotHandleByName) {
   for (const std::string name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
     expectRefused(with("\"target\":34962", "\"extensions\":{\"" + name + "\":{}}"), ErrorCode::unsupportedFile,
                   "mesh 0 primitive 0 POSITION (accessor 0): " + name);
-    expectRefused(with(R"("byteLength":48)", R"("byteLength":48,"extensions":{")" + name + "\":{}}"), ErrorCode::unsupportedFile,
-                  "mesh 0 primitive 0 indices (accessor 1): " + name);
+    expectRefused(with(R"("byteLength":48)", R"("byteLength":48,"extensions":{")" + name + "\":{}}"),
+                  ErrorCode::unsupportedFile, "mesh 0 primitive 0 indices (accessor 1): " + name);
   }
-  expectRefused(with("5126", "5122"), ErrorCode::unsupportedFile, "mesh 0 primitive 0 POSITION (accessor 0): componentType 5122 (KHR_mesh_quantization)");
-  expectRefused(with(R"("type":"VEC3")", R"("type":"VEC3","sparse":{"count":1})"), ErrorCode::unsupportedFile, "sparse");
-  expectRefused(with(R"("accessors":[{"bufferView":0,)", R"("accessors":[{)"), ErrorCode::unsupportedFile, "without bufferView");
+  expectRefused(with("5126", "5122"), ErrorCode::unsupportedFile,
+                "mesh 0 primitive 0 POSITION (accessor 0): componentType 5122 (KHR_mesh_quantization)");
+  expectRefused(with(R"("type":"VEC3")", R"("type":"VEC3","sparse":{"count":1})"), ErrorCode::unsupportedFile,
+                "sparse");
+  expectRefused(with(R"("accessors":[{"bufferView":0,)", R"("accessors":[{)"), ErrorCode::unsupportedFile,
+                "without bufferView");
   expectRefused(with("\"version\":\"2.0\"", "\"version\":\"1.0\""), ErrorCode::unsupportedFile, "glTF version \"1.0\"");
-  const auto required = readOk(with("\"extensionsUsed\"", R"("extensionsRequired":["VENDOR_unknown"],"extensionsUsed")"));
+  const auto required =
+      readOk(with("\"extensionsUsed\"", R"("extensionsRequired":["VENDOR_unknown"],"extensionsUsed")"));
   EXPECT_NE(required, nullptr);
 }
 
 TEST(ReadGltf, RefusesContradictionsNamingThePlace) {
-  expectRefused(with("\"count\":9", "\"count\":10"), ErrorCode::badFile, "accessor 0: byteOffset 0 with 10 elements exceeds bufferView 0 (108 bytes)");
+  expectRefused(with("\"count\":9", "\"count\":10"), ErrorCode::badFile,
+                "accessor 0: byteOffset 0 with 10 elements exceeds bufferView 0 (108 bytes)");
   expectRefused(with("\"count\":9", "\"count\":4294967295"), ErrorCode::badFile, "accessor 0");
   expectRefused(with("\"count\":9", "\"count\":4294967305"), ErrorCode::badFile, "accessor 0 count");  // 9 modulo 2^32
   expectRefused(with("\"count\":9", "\"count\":18446744073709551625"), ErrorCode::badFile, "accessor 0 count");
   expectRefused(with("\"count\":9", "\"count\":-9"), ErrorCode::badFile, "accessor 0 count");
   expectRefused(with("\"count\":9", "\"count\":0"), ErrorCode::badFile, "accessor 0: count is 0");
-  expectRefused(with("\"count\":9", "\"count\":8"), ErrorCode::badFile, "mesh 0 primitive 0: index 8 at position 20 exceeds accessor 0 (8 vertices)");
+  expectRefused(with("\"count\":9", "\"count\":8"), ErrorCode::badFile,
+                "mesh 0 primitive 0: index 8 at position 20 exceeds accessor 0 (8 vertices)");
   expectRefused(with("\"count\":9,", ""), ErrorCode::badFile, "accessor 0 has no count");
   expectRefused(with("\"count\":24", "\"count\":25"), ErrorCode::badFile, "accessor 1");
-  expectRefused(with("\"bufferView\":0", "\"bufferView\":2"), ErrorCode::badFile, "accessor 0 refers to bufferView 2 of 2");
-  expectRefused(with("\"byteOffset\":108", "\"byteOffset\":109"), ErrorCode::badFile, "bufferView 1 with byteOffset 109");
+  expectRefused(with("\"bufferView\":0", "\"bufferView\":2"), ErrorCode::badFile,
+                "accessor 0 refers to bufferView 2 of 2");
+  expectRefused(with("\"byteOffset\":108", "\"byteOffset\":109"), ErrorCode::badFile,
+                "bufferView 1 with byteOffset 109");
   expectRefused(with("\"byteOffset\":108", "\"byteOffset\":4294967404"), ErrorCode::badFile, "bufferView 1 byteOffset");
   expectRefused(with("\"byteLength\":108", "\"byteLength\":1e300"), ErrorCode::badFile, "bufferView 0 byteLength");
-  expectRefused(with("{\"buffer\":0,\"byteLength\":108", "{\"buffer\":1,\"byteLength\":108"), ErrorCode::badFile, "bufferView 0 refers to buffer 1 of 1");
+  expectRefused(with("{\"buffer\":0,\"byteLength\":108", "{\"buffer\":1,\"byteLength\":108"), ErrorCode::badFile,
+                "bufferView 0 refers to buffer 1 of 1");
   expectRefused(with("\"target\":34962", "\"byteStride\":8"), ErrorCode::badFile, "overlap at the byteStride 8");
-  expectRefused(with("\"target\":34962", "\"byteStride\":13"), ErrorCode::badFile, "bufferView 0 has the byteStride 13");
-  expectRefused(with("\"byteLength\":156", "\"byteLength\":157"), ErrorCode::badFile, "buffer 0: byteLength is 157, the BIN chunk has 156 bytes");
+  expectRefused(with("\"target\":34962", "\"byteStride\":13"), ErrorCode::badFile,
+                "bufferView 0 has the byteStride 13");
+  expectRefused(with("\"byteLength\":156", "\"byteLength\":157"), ErrorCode::badFile,
+                "buffer 0: byteLength is 157, the BIN chunk has 156 bytes");
   expectRefused(with("\"indices\":1", "\"indices\":2"), ErrorCode::badFile, "mesh 0 primitive 0 indices");
   expectRefused(with("\"POSITION\":0", "\"POSITION\":2"), ErrorCode::badFile, "mesh 0 primitive 0 POSITION");
   expectRefused(with("\"POSITION\":0", "\"POSITION\":\"0\""), ErrorCode::badFile, "mesh 0 primitive 0 POSITION");
@@ -289,13 +317,15 @@ TEST(ReadGltf, RefusesPositionsThatAreNotFiniteNamingTheVertex) {
 TEST(ReadGltf, RefusesEveryTruncation) {
   const FileBytes glb = gridGltf().glb();
   for (std::size_t size = 0; size < glb.size(); ++size) {
-    const Result<std::unique_ptr<Model>> model = readModel(FileBytes(glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)));
+    const Result<std::unique_ptr<Model>> model =
+        readModel(FileBytes(glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)));
     ASSERT_FALSE(model.ok()) << size;
     ASSERT_EQ(model.error().code, ErrorCode::badFile) << model.error().message;
   }
   const GridGltf outside = gridGltf("\"uri\":\"a.bin\",");
   for (std::size_t size = 0; size < outside.json.size(); ++size) {
-    const Result<std::unique_ptr<Model>> model = readModel(bytesOf(outside.json.substr(0, size)), {{"a.bin", outside.bin}});
+    const Result<std::unique_ptr<Model>> model =
+        readModel(bytesOf(outside.json.substr(0, size)), {{"a.bin", outside.bin}});
     ASSERT_FALSE(model.ok()) << size;
     ASSERT_EQ(model.error().code, ErrorCode::badFile) << model.error().message;
   }
@@ -345,7 +375,8 @@ TEST(ReadGltf, KeepsUnknownChunksAndBytesAfterTheEnd) {
 }
 
 TEST(ExternalUris, ListsBuffersOnceInFileOrder) {
-  const std::string json = R"({"buffers":[{"uri":"b.bin"},{"uri":"data:;base64,AAAA"},{},{"uri":"a%20b.bin"},{"uri":"b.bin"},{"uri":7}],"images":[{"uri":"c.png"}]})";
+  const std::string json =
+      R"({"buffers":[{"uri":"b.bin"},{"uri":"data:;base64,AAAA"},{},{"uri":"a%20b.bin"},{"uri":"b.bin"},{"uri":7}],"images":[{"uri":"c.png"}]})";
   EXPECT_EQ(*externalUris(bytesOf(json)), (std::vector<std::string>{"b.bin", "a%20b.bin"}));
   EXPECT_EQ(*externalUris(makeGlb(json)), (std::vector<std::string>{"b.bin", "a%20b.bin"}));
   EXPECT_TRUE(externalUris(makePly(PlySpec{}))->empty());

@@ -77,13 +77,23 @@ TEST(HostileFiles, SurviveRandomDamage) {
       for (std::uint64_t edits = 1 + bits.next() % 3; edits > 0; --edits) {
         const std::size_t at = bits.next() % file.size();
         switch (bits.next() % 5) {
-          case 0: file[at] = static_cast<std::uint8_t>(bits.next()); break;
-          case 1: file[at] = static_cast<std::uint8_t>(interesting[bits.next() % interesting.size()]); break;
-          case 2: file.erase(file.begin() + static_cast<std::ptrdiff_t>(at)); break;
-          case 3: file.insert(file.begin() + static_cast<std::ptrdiff_t>(at), static_cast<std::uint8_t>(interesting[bits.next() % interesting.size()])); break;
+          case 0:
+            file[at] = static_cast<std::uint8_t>(bits.next());
+            break;
+          case 1:
+            file[at] = static_cast<std::uint8_t>(interesting[bits.next() % interesting.size()]);
+            break;
+          case 2:
+            file.erase(file.begin() + static_cast<std::ptrdiff_t>(at));
+            break;
+          case 3:
+            file.insert(file.begin() + static_cast<std::ptrdiff_t>(at),
+                        static_cast<std::uint8_t>(interesting[bits.next() % interesting.size()]));
+            break;
           default: {  // copy a piece over another one
             const std::size_t from = bits.next() % file.size();
-            for (std::size_t i = 0; i < 6 && at + i < file.size() && from + i < file.size(); ++i) file[at + i] = file[from + i];
+            for (std::size_t i = 0; i < 6 && at + i < file.size() && from + i < file.size(); ++i)
+              file[at + i] = file[from + i];
           }
         }
         if (file.empty()) file.push_back('p');
@@ -111,7 +121,8 @@ TEST(HostileFiles, DoNotMakeTheReaderAllocateWhatTheyClaim) {
       const std::string faces = "property list uint int vertex_indices\nend_header\n";
       files.push_back(bytesOf(start + count + "\n" + vertex + "element face 1\n" + faces + std::string(200, '0')));
       files.push_back(bytesOf(start + "3\n" + vertex + "element face " + count + "\n" + faces + std::string(200, '0')));
-      files.push_back(bytesOf(start + "3\n" + vertex + "element nothing " + count + "\nelement face 1\n" + faces + "0 0 0 1 0 0 0 1 0 4000000000 1 2 3"));
+      files.push_back(bytesOf(start + "3\n" + vertex + "element nothing " + count + "\nelement face 1\n" + faces +
+                              "0 0 0 1 0 0 0 1 0 4000000000 1 2 3"));
     }
   }
   for (const char* count : {"\"count\":4294967295", "\"count\":1000000000"}) {
@@ -128,9 +139,10 @@ TEST(HostileFiles, DoNotMakeTheReaderAllocateWhatTheyClaim) {
 TEST(HostileFiles, AllocateInProportionToTheirSize) {
   // Many small entries of any kind: no entry may cost more than some multiple of its text.
   const GridGltf grid = gridGltf();
-  for (const auto& [array, entry] : {std::pair{"\"nodes\":[", "{\"mesh\":0},"}, std::pair{"\"accessors\":[{\"bufferView\":0", "{},"},
-                                     std::pair{"\"bufferViews\":[", "{},"}, std::pair{"\"buffers\":[", "{},"},
-                                     std::pair{"\"meshes\":[", "{},"}, std::pair{"\"primitives\":[", R"({"attributes":{"POSITION":0}},)"}}) {
+  for (const auto& [array, entry] :
+       {std::pair{"\"nodes\":[", "{\"mesh\":0},"}, std::pair{"\"accessors\":[{\"bufferView\":0", "{},"},
+        std::pair{"\"bufferViews\":[", "{},"}, std::pair{"\"buffers\":[", "{},"}, std::pair{"\"meshes\":[", "{},"},
+        std::pair{"\"primitives\":[", R"({"attributes":{"POSITION":0}},)"}}) {
     std::string many;
     for (int i = 0; i < 20000; ++i) many += entry;
     const std::string key(array);
@@ -148,7 +160,8 @@ TEST(HostileFiles, AreRefusedWhenTheyReuseDataWithoutEnd) {
   buffer.bytes.resize(buffer.bytes.size() + 66000, 1);
   std::string accessors, primitives;
   for (int i = 0; i < 2000; ++i) {
-    accessors += R"(,{"bufferView":1,"byteOffset":)" + std::to_string(i % 1000) + R"(,"componentType":5121,"count":)" + std::to_string(65000 - i / 1000) + R"(,"type":"SCALAR"})";
+    accessors += R"(,{"bufferView":1,"byteOffset":)" + std::to_string(i % 1000) + R"(,"componentType":5121,"count":)" +
+                 std::to_string(65000 - i / 1000) + R"(,"type":"SCALAR"})";
     primitives += R"({"attributes":{"POSITION":0},"mode":5,"indices":)" + std::to_string(i + 2) + "},";
   }
   std::string json = replaced(replaced(gridGltf().json, ":48", ":66000"), "156", std::to_string(buffer.bytes.size()));
@@ -165,7 +178,8 @@ TEST(HostileFiles, AreRefusedAboveTheEntryLimits) {
   std::string many;
   for (int i = 0; i < (1 << 20) + 1; ++i) many += "0,";
   for (const char* key : {"buffers", "bufferViews", "accessors"}) {
-    const Result<std::unique_ptr<Model>> model = readModel(bytesOf(replaced(gridGltf().json, std::string("\"") + key + "\":[", std::string("\"") + key + "\":[" + many)));
+    const Result<std::unique_ptr<Model>> model = readModel(
+        bytesOf(replaced(gridGltf().json, std::string("\"") + key + "\":[", std::string("\"") + key + "\":[" + many)));
     ASSERT_FALSE(model.ok());
     EXPECT_EQ(model.error().code, ErrorCode::tooLarge);
     EXPECT_NE(model.error().message.find(key), std::string::npos);

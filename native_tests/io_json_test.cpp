@@ -13,16 +13,20 @@ JsonValue parsed(std::string_view text) {
 }
 
 TEST(Json, AcceptsEveryKindOfValue) {
-  for (const char* text : {"{}", "[]", " [ ] ", "null", "true", "false", "0", "-0", "-1.5e-7", "1E+3", "\"\"", "[[],{}]",
-                           R"({"a":[1,2,{"b":null}],"c":"\u00e9\\\"/"})", "\t{\r\n\"a\" : 1 , \"b\":[ 1 , 2 ]\n}\n"}) {
+  for (const char* text :
+       {"{}", "[]", " [ ] ", "null", "true", "false", "0", "-0", "-1.5e-7", "1E+3", "\"\"", "[[],{}]",
+        R"({"a":[1,2,{"b":null}],"c":"\u00e9\\\"/"})", "\t{\r\n\"a\" : 1 , \"b\":[ 1 , 2 ]\n}\n"}) {
     EXPECT_TRUE(parseJson(text).ok()) << text;
   }
 }
 
 TEST(Json, RefusesBrokenTextNamingTheByte) {
-  for (const char* text : {"", " ", "{", "[", "[1", "[1,", "[1,]", "{\"a\"", "{\"a\":", "{\"a\":1", "{\"a\":1,", "{\"a\":1,}", "{a:1}",
-                           "{'a':1}", "[1}", "{\"a\":1]", "01", "1.", ".5", "+1", "1e", "-", "tru", "nul", "\"", "\"\\\"", "\"\\x\"",
-                           "\"\\u12g4\"", "\"a\nb\"", "[1] 2", "{} x", "[1 2]", "{\"a\" 1}", "NaN", "]", "}", ","}) {
+  for (const char* text :
+       {"",          " ",        "{",         "[",           "[1",       "[1,",     "[1,]", "{\"a\"",
+        "{\"a\":",   "{\"a\":1", "{\"a\":1,", "{\"a\":1,}",  "{a:1}",    "{'a':1}", "[1}",  "{\"a\":1]",
+        "01",        "1.",       ".5",        "+1",          "1e",       "-",       "tru",  "nul",
+        "\"",        "\"\\\"",   "\"\\x\"",   "\"\\u12g4\"", "\"a\nb\"", "[1] 2",   "{} x", "[1 2]",
+        "{\"a\" 1}", "NaN",      "]",         "}",           ","}) {
     const Result<JsonValue> value = parseJson(text);
     ASSERT_FALSE(value.ok()) << text;
     EXPECT_EQ(value.error().code, ErrorCode::badFile);
@@ -71,7 +75,7 @@ TEST(Json, DecodesStringsToValidUtf8) {
   EXPECT_EQ(parsed(R"("\ud83dx")").asString(), replacement + "x");
   EXPECT_EQ(parsed(R"("\ude00")").asString(), replacement);
   EXPECT_EQ(parsed("\"\xff\xc3\"").asString(), replacement + replacement);
-  EXPECT_EQ(parsed("\"\xc0\x80\"").asString(), replacement + replacement);          // overlong
+  EXPECT_EQ(parsed("\"\xc0\x80\"").asString(), replacement + replacement);                    // overlong
   EXPECT_EQ(parsed("\"\xed\xa0\x80\"").asString(), replacement + replacement + replacement);  // a surrogate in UTF-8
   EXPECT_EQ(parsed("12").asString(), "");
 }

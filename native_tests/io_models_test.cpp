@@ -91,7 +91,11 @@ TEST(RealModels, ReadAsKnownAndKeepEverythingButPositions) {
 }
 
 TEST(RealModels, AreRefusedByNameWhereThisVersionCannotReadThem) {
-  const struct { const char* name; ErrorCode code; const char* place; } refused[] = {
+  const struct {
+    const char* name;
+    ErrorCode code;
+    const char* place;
+  } refused[] = {
       {"Box_Draco.glb", ErrorCode::unsupportedFile, "KHR_draco_mesh_compression"},
       {"SimpleSparseAccessor/SimpleSparseAccessor.gltf", ErrorCode::unsupportedFile, "sparse"},
       {"bunny_gltf.drc", ErrorCode::badFile, "\"DRACO"},

@@ -58,7 +58,8 @@ void expectRoundTrips(int count) {
   for (int i = 0; i < count; ++i) {
     T value = fromBits<T, Pattern>(bits.next());
     if (i % 3 == 1) value = static_cast<T>(static_cast<double>(bits.next() % 4000001) / 1e6 - 2);
-    if (i % 16 == 0) value = fromBits<T, Pattern>(bits.next() & ~((std::uint64_t{1} << (sizeof(T) == 4 ? 23 : 52)) - 1));
+    if (i % 16 == 0)
+      value = fromBits<T, Pattern>(bits.next() & ~((std::uint64_t{1} << (sizeof(T) == 4 ? 23 : 52)) - 1));
     if (!std::isfinite(value)) continue;
     const std::string text = formatShortest(value);
     T parsed, byLibrary;
@@ -74,7 +75,8 @@ void expectRoundTrips(int count) {
     ASSERT_EQ(std::signbit(parsed), std::signbit(value)) << text;
 #if defined(__cpp_lib_to_chars)
     char expected[64];
-    const auto [end, error] = std::to_chars(expected, expected + sizeof(expected), value, std::chars_format::scientific);
+    const auto [end, error] =
+        std::to_chars(expected, expected + sizeof(expected), value, std::chars_format::scientific);
     const auto digitsOf = [](std::string_view spelled) {
       std::string digits;
       for (const char c : spelled.substr(0, spelled.find('e'))) {
@@ -88,8 +90,12 @@ void expectRoundTrips(int count) {
   }
 }
 
-TEST(NumberFormat, RoundTripsFloatsWithAsFewDigitsAsToChars) { expectRoundTrips<float, std::uint32_t>(200000); }
-TEST(NumberFormat, RoundTripsDoublesWithAsFewDigitsAsToChars) { expectRoundTrips<double, std::uint64_t>(100000); }
+TEST(NumberFormat, RoundTripsFloatsWithAsFewDigitsAsToChars) {
+  expectRoundTrips<float, std::uint32_t>(200000);
+}
+TEST(NumberFormat, RoundTripsDoublesWithAsFewDigitsAsToChars) {
+  expectRoundTrips<double, std::uint64_t>(100000);
+}
 
 TEST(NumberParse, RoundsOnceToTheTypeOfTheProperty) {
   // Through a double this would round twice: down to 1 + 2^-24 exactly, then to the even 1.
@@ -124,12 +130,14 @@ TEST(NumberParse, ReadsExtremesAndSpecialSpellings) {
   EXPECT_TRUE(std::isinf(parseDouble("1e999999999999").value()));
   EXPECT_EQ(parseDouble("+.5").value(), 0.5);
   EXPECT_EQ(parseDouble("5.").value(), 5.0);
-  for (const char* text : {"nan", "NaN", "-nan(ind)", "1.#QNAN"}) EXPECT_TRUE(std::isnan(parseFloat(text).value())) << text;
+  for (const char* text : {"nan", "NaN", "-nan(ind)", "1.#QNAN"})
+    EXPECT_TRUE(std::isnan(parseFloat(text).value())) << text;
   for (const char* text : {"inf", "-Infinity", "1.#INF"}) EXPECT_TRUE(std::isinf(parseFloat(text).value())) << text;
 }
 
 TEST(NumberParse, RefusesWhatIsNotADecimalNumber) {
-  for (const char* text : {"", "-", "+", ".", "e5", "1e", "1e+", "1..2", "--1", "+-1", "0x10", "1,5", " 1", "1 ", "1f", "abc"}) {
+  for (const char* text :
+       {"", "-", "+", ".", "e5", "1e", "1e+", "1..2", "--1", "+-1", "0x10", "1,5", " 1", "1 ", "1f", "abc"}) {
     EXPECT_FALSE(parseFloat(text).has_value()) << text;
     EXPECT_FALSE(parseDouble(text).has_value()) << text;
   }

@@ -39,7 +39,8 @@ std::vector<PlySpec> allVariants() {
 }
 
 std::string nameOf(const PlySpec& spec) {
-  return spec.encoding + " " + spec.coordinate + (spec.extras ? " extras" : "") + (spec.lineBreak == "\n" ? " LF" : " CRLF");
+  return spec.encoding + " " + spec.coordinate + (spec.extras ? " extras" : "") +
+         (spec.lineBreak == "\n" ? " LF" : " CRLF");
 }
 
 std::vector<std::uint32_t> flat(const std::vector<std::vector<int>>& faces) {
@@ -59,7 +60,8 @@ TEST(ReadPly, ReadsEveryEncodingCoordinateTypeAndHeaderStyle) {
     EXPECT_TRUE(model->mesh().groups.empty());
     EXPECT_TRUE(model->vertexMesh().empty());
     EXPECT_TRUE(model->nodes().empty());
-    EXPECT_EQ(model->mesh().precision, spec.coordinate[0] == 'd' || spec.coordinate == "float64" ? Precision::float64 : Precision::float32);
+    EXPECT_EQ(model->mesh().precision,
+              spec.coordinate[0] == 'd' || spec.coordinate == "float64" ? Precision::float64 : Precision::float32);
     EXPECT_EQ(model->info().format, FileFormat::ply);
     EXPECT_EQ(model->info().variant, spec.encoding + " 1.0");
     EXPECT_TRUE(model->info().warnings.empty());
@@ -121,15 +123,16 @@ TEST(ReadPly, ExpandsTriangleStripsWithAlternatingWindingAndRestarts) {
     const auto model = readOk(makePly(spec));
     ASSERT_NE(model, nullptr);
     // Strip 0 3 1 4 4 5: two triangles, then two degenerate ones that keep the winding's parity.
-    EXPECT_EQ(model->mesh().faceVertices,
-              (std::vector<std::uint32_t>{0, 3, 1, 1, 3, 4, 6, 3, 7, 7, 3, 4, 4, 5, 8})) << index;
+    EXPECT_EQ(model->mesh().faceVertices, (std::vector<std::uint32_t>{0, 3, 1, 1, 3, 4, 6, 3, 7, 7, 3, 4, 4, 5, 8}))
+        << index;
   }
 }
 
 TEST(ReadPly, ReadsFacesThatComeBeforeTheVertices) {
-  const auto model = readOk(bytesOf("ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
-                                    "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
-                                    "3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n"));
+  const auto model =
+      readOk(bytesOf("ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
+                     "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+                     "3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n"));
   EXPECT_EQ(model->mesh().faceVertices, (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
@@ -171,30 +174,37 @@ TEST(ReadPly, KeepsBytesAfterTheEndWithAWarning) {
 
 /// The small triangle with one thing replaced.
 FileBytes broken(const std::string& what, const std::string& by) {
-  const std::string text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                           "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                           "0 0 0\n1 0 0\n0 1 0.5\n3 0 1 2\n";
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0.5\n3 0 1 2\n";
   EXPECT_NE(text.find(what), std::string::npos) << what;
   return bytesOf(replaced(text, what, by));
 }
 
 TEST(ReadPly, RefusesBrokenHeadersNamingTheLine) {
-  expectRefused(broken("format ascii 1.0", "format ebcdic 1.0"), ErrorCode::badFile, "line 2: unknown format \"ebcdic\"");
+  expectRefused(broken("format ascii 1.0", "format ebcdic 1.0"), ErrorCode::badFile,
+                "line 2: unknown format \"ebcdic\"");
   expectRefused(broken("format ascii 1.0", "format ascii 2.0"), ErrorCode::unsupportedFile, "line 2");
   expectRefused(broken("format ascii 1.0\n", ""), ErrorCode::badFile, "no format line");
   expectRefused(broken("element vertex 3", "element vertex -3"), ErrorCode::badFile, "line 3");
   expectRefused(broken("element vertex 3", "element vertex three"), ErrorCode::badFile, "line 3");
   expectRefused(broken("element vertex 3", "element vertex"), ErrorCode::badFile, "line 3");
   expectRefused(broken("element vertex 3", "element vertex 99999999999999999999"), ErrorCode::badFile, "line 3");
-  expectRefused(broken("element face 1", "element vertex 1"), ErrorCode::badFile, "line 7: element \"vertex\" appears twice");
-  expectRefused(broken("property float y", "property half y"), ErrorCode::badFile, "line 5: unknown property type \"half\"");
-  expectRefused(broken("property float y", "property float x"), ErrorCode::badFile, "line 5: property \"x\" appears twice");
+  expectRefused(broken("element face 1", "element vertex 1"), ErrorCode::badFile,
+                "line 7: element \"vertex\" appears twice");
+  expectRefused(broken("property float y", "property half y"), ErrorCode::badFile,
+                "line 5: unknown property type \"half\"");
+  expectRefused(broken("property float y", "property float x"), ErrorCode::badFile,
+                "line 5: property \"x\" appears twice");
   expectRefused(broken("property float y", "property float"), ErrorCode::badFile, "line 5");
   expectRefused(broken("property float y\n", ""), ErrorCode::badFile, "no property \"y\"");
   expectRefused(broken("list uchar int", "list float int"), ErrorCode::badFile, "line 8");
   expectRefused(broken("list uchar int", "list uchar float"), ErrorCode::badFile, "not a list of integers");
-  expectRefused(broken("property list uchar int vertex_indices", "property int vertex_indices"), ErrorCode::badFile, "not a list");
-  expectRefused(broken("element face 1", "elephant face 1"), ErrorCode::badFile, "line 7: unknown keyword \"elephant\"");
+  expectRefused(broken("property list uchar int vertex_indices", "property int vertex_indices"), ErrorCode::badFile,
+                "not a list");
+  expectRefused(broken("element face 1", "elephant face 1"), ErrorCode::badFile,
+                "line 7: unknown keyword \"elephant\"");
   expectRefused(broken("end_header\n", ""), ErrorCode::badFile, "unknown keyword");
   expectRefused(broken("element vertex 3\n", ""), ErrorCode::badFile, "line 3: property before the first element");
   expectRefused(broken("element vertex 3", "element vertices 3"), ErrorCode::badFile, "no element \"vertex\"");
@@ -202,7 +212,8 @@ TEST(ReadPly, RefusesBrokenHeadersNamingTheLine) {
 
 TEST(ReadPly, RefusesCoordinatesItCannotPatch) {
   for (const char* type : {"int", "uchar", "short"}) {
-    expectRefused(broken("property float", std::string("property ") + type), ErrorCode::unsupportedFile, "integer type");
+    expectRefused(broken("property float", std::string("property ") + type), ErrorCode::unsupportedFile,
+                  "integer type");
   }
   expectRefused(broken("property float z", "property double z"), ErrorCode::unsupportedFile, "different types");
   expectRefused(broken("property float z", "property list uchar float z"), ErrorCode::badFile, "is a list");
@@ -310,10 +321,11 @@ TEST(PatchPly, ChangesNothingButTheBytesOfMovedComponentsInBinaryFiles) {
 }
 
 TEST(PatchPly, KeepsSpellingAndWhiteSpaceOfTextFiles) {
-  const std::string text = "ply\r\nformat ascii 1.0\r\ncomment  two  blanks \r\nelement vertex 3\r\nproperty float32 x\r\n"
-                           "property float y\r\nproperty uchar red\r\nproperty float z\r\nelement face 1\r\n"
-                           "property list uchar int vertex_index\r\nend_header\r\n"
-                           "+0.00 \t 0e0 007 -0\r\n  1.50000 000.25 +9 1E0  \r\n\r\n0 .5 255 1\r\n3 0 1 2 ";
+  const std::string text =
+      "ply\r\nformat ascii 1.0\r\ncomment  two  blanks \r\nelement vertex 3\r\nproperty float32 x\r\n"
+      "property float y\r\nproperty uchar red\r\nproperty float z\r\nelement face 1\r\n"
+      "property list uchar int vertex_index\r\nend_header\r\n"
+      "+0.00 \t 0e0 007 -0\r\n  1.50000 000.25 +9 1E0  \r\n\r\n0 .5 255 1\r\n3 0 1 2 ";
   const FileBytes file = bytesOf(text);
   const auto model = readOk(file);
   ASSERT_EQ(model->mesh().positions, (std::vector<double>{0, 0, 0, 1.5, 0.25, 1, 0, 0.5, 1}));

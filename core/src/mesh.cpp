@@ -7,7 +7,9 @@
 namespace quadmark {
 namespace {
 
-Error badMesh(std::string message) { return Error{ErrorCode::badMesh, std::move(message)}; }
+Error badMesh(std::string message) {
+  return Error{ErrorCode::badMesh, std::move(message)};
+}
 
 Status validatePositions(const Mesh& mesh) {
   if (mesh.positions.size() % 3 != 0) {

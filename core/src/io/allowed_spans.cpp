@@ -13,9 +13,8 @@ void AllowedSpans::add(std::uint64_t begin, std::uint64_t stride, std::uint64_t 
 }
 
 void AllowedSpans::finish() {
-  std::sort(runs_.begin(), runs_.end(), [](const Run& a, const Run& b) {
-    return a.begin != b.begin ? a.begin < b.begin : a.end < b.end;
-  });
+  std::sort(runs_.begin(), runs_.end(),
+            [](const Run& a, const Run& b) { return a.begin != b.begin ? a.begin < b.begin : a.end < b.end; });
   largestEnd_.clear();
   std::uint64_t largest = 0;
   for (const Run& run : runs_) {

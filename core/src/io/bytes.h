@@ -49,10 +49,18 @@ inline std::string_view asText(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-inline Error badFile(std::string message) { return Error{ErrorCode::badFile, std::move(message)}; }
-inline Error badMesh(std::string message) { return Error{ErrorCode::badMesh, std::move(message)}; }
-inline Error unsupportedFile(std::string message) { return Error{ErrorCode::unsupportedFile, std::move(message)}; }
-inline Error tooLarge(std::string message) { return Error{ErrorCode::tooLarge, std::move(message)}; }
+inline Error badFile(std::string message) {
+  return Error{ErrorCode::badFile, std::move(message)};
+}
+inline Error badMesh(std::string message) {
+  return Error{ErrorCode::badMesh, std::move(message)};
+}
+inline Error unsupportedFile(std::string message) {
+  return Error{ErrorCode::unsupportedFile, std::move(message)};
+}
+inline Error tooLarge(std::string message) {
+  return Error{ErrorCode::tooLarge, std::move(message)};
+}
 
 /// Text of a file for an error message: in double quotes, at most 40 characters, nothing but printable ASCII.
 std::string quoted(std::string_view text);

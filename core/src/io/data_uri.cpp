@@ -59,7 +59,8 @@ class Base64Reader {
       at_ = at_ + length < text_.size() ? at_ + length : text_.size();
       return resolved.size() == 1 ? resolved[0] : '?';
     }
-    if (text_[at_] == '%' && text_.size() - at_ >= 3 && hexDigit(text_[at_ + 1]) >= 0 && hexDigit(text_[at_ + 2]) >= 0) {
+    if (text_[at_] == '%' && text_.size() - at_ >= 3 && hexDigit(text_[at_ + 1]) >= 0 &&
+        hexDigit(text_[at_ + 2]) >= 0) {
       const int value = 16 * hexDigit(text_[at_ + 1]) + hexDigit(text_[at_ + 2]);
       at_ += 3;
       return static_cast<char>(value);
@@ -85,7 +86,8 @@ std::size_t payloadBegin(std::string_view spelled) {
   const std::size_t comma = spelled.find(',');
   if (comma == spelled.npos) return 0;
   std::string head = unescapeJson(spelled.substr(0, comma));
-  for (char& character : head) character = character >= 'A' && character <= 'Z' ? static_cast<char>(character + 32) : character;
+  for (char& character : head)
+    character = character >= 'A' && character <= 'Z' ? static_cast<char>(character + 32) : character;
   constexpr std::string_view kMark = ";base64";
   if (head.size() < kMark.size() || head.compare(head.size() - kMark.size(), kMark.size(), kMark) != 0) return 0;
   return comma + 1;
@@ -113,7 +115,8 @@ Result<std::vector<std::uint8_t>> decodeDataUri(std::string_view spelled, const 
   for (;;) {
     const Base64Reader::Step step = reader.next();
     if (step == Base64Reader::Step::broken) {
-      return badFile(place + ": the data URI's base64 is broken at character " + std::to_string(begin + reader.begin()));
+      return badFile(place + ": the data URI's base64 is broken at character " +
+                     std::to_string(begin + reader.begin()));
     }
     if (step == Base64Reader::Step::end) break;
     quad = (quad << 6) | static_cast<std::uint32_t>(reader.digit());
@@ -130,7 +133,8 @@ Result<std::vector<std::uint8_t>> decodeDataUri(std::string_view spelled, const 
 Result<std::string> recodeDataUri(std::string_view spelled, Bytes bytes, const std::string& place) {
   const Result<std::vector<std::uint8_t>> before = decodeDataUri(spelled, place);
   if (!before) return before.error();
-  if (before->size() != bytes.size()) return Error{ErrorCode::internal, place + ": re-encoding another number of bytes"};
+  if (before->size() != bytes.size())
+    return Error{ErrorCode::internal, place + ": re-encoding another number of bytes"};
   const std::size_t begin = payloadBegin(spelled);
   std::string out(spelled.substr(0, begin));
   out.reserve(spelled.size());

@@ -13,7 +13,8 @@ namespace quadmark::io {
 bool isDataUri(std::string_view uri);
 
 /// Decodes the URI's bytes.
-/// @param spelled  the URI as spelled in the JSON text between its quotes; JSON escapes (such as \/) and %XX are resolved.
+/// @param spelled  the URI as spelled in the JSON text between its quotes; JSON escapes (such as \/) and %XX are
+/// resolved.
 /// @param place    named in errors, for example "buffer 2".
 /// Fails with badFile (broken base64) or unsupportedFile (a data URI that is not base64).
 Result<std::vector<std::uint8_t>> decodeDataUri(std::string_view spelled, const std::string& place);

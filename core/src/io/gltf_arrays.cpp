@@ -103,9 +103,10 @@ class PlaceIndex {
 
   /// An array other than the `except`th (in place order) that shares bytes with a layout, or nullptr.
   [[nodiscard]] const Layout* findSharing(const Layout& layout, std::size_t except = ~std::size_t{0}) const {
-    const auto behind = std::lower_bound(arrays_.begin(), arrays_.end(), layout, [](const Layout& array, const Layout& l) {
-      return array.buffer != l.buffer ? array.buffer < l.buffer : array.start < l.end();
-    });
+    const auto behind =
+        std::lower_bound(arrays_.begin(), arrays_.end(), layout, [](const Layout& array, const Layout& l) {
+          return array.buffer != l.buffer ? array.buffer < l.buffer : array.start < l.end();
+        });
     for (auto i = static_cast<std::size_t>(behind - arrays_.begin()); i-- > 0;) {
       if (arrays_[i].buffer != layout.buffer || largestEnd_[i] <= layout.start) return nullptr;
       if (i != except && shareBytes(arrays_[i], layout)) return &arrays_[i];
@@ -156,7 +157,8 @@ std::string findConflict(const GltfDocument& document, const std::vector<std::ui
 
 }  // namespace
 
-Result<PositionArrays> collectPositionArrays(const GltfDocument& document, const std::vector<std::uint32_t>& sameBuffer) {
+Result<PositionArrays> collectPositionArrays(const GltfDocument& document,
+                                             const std::vector<std::uint32_t>& sameBuffer) {
   const std::vector<std::uint32_t> accessors = positionAccessors(document);
   std::vector<Layout> layouts, joined;
   for (const std::uint32_t accessor : accessors) layouts.push_back(layoutOf(document, sameBuffer, accessor));
@@ -166,8 +168,8 @@ Result<PositionArrays> collectPositionArrays(const GltfDocument& document, const
   for (std::size_t i = 0; i < index.arrays().size(); ++i) {
     const Layout& array = index.arrays()[i];
     if (const Layout* other = index.findSharing(array, i)) {
-      return unsupportedFile("accessor " + std::to_string(std::min(array.accessor, other->accessor)) + " and accessor " +
-                             std::to_string(std::max(array.accessor, other->accessor)) +
+      return unsupportedFile("accessor " + std::to_string(std::min(array.accessor, other->accessor)) +
+                             " and accessor " + std::to_string(std::max(array.accessor, other->accessor)) +
                              " hold positions that overlap with different layouts");
     }
   }
@@ -188,7 +190,8 @@ Result<PositionArrays> collectPositionArrays(const GltfDocument& document, const
     const PositionArray& array = result.arrays[number[joinedArray]];
     result.windowOf[layout.accessor] = static_cast<std::uint32_t>(result.windows.size());
     const std::uint64_t skipped = (layout.start - array.start) / array.stride;
-    result.windows.push_back(PositionWindow{layout.accessor, number[joinedArray], array.firstVertex + skipped, layout.count});
+    result.windows.push_back(
+        PositionWindow{layout.accessor, number[joinedArray], array.firstVertex + skipped, layout.count});
   };
   for (std::size_t i = 0; i < layouts.size(); ++i) addWindow(layouts[i], arrayOf[i]);
 

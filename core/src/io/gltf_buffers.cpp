@@ -16,7 +16,8 @@ int hexDigit(char character) {
 std::string percentDecoded(const std::string& uri) {
   std::string out;
   for (std::size_t at = 0; at < uri.size(); ++at) {
-    const bool escape = uri[at] == '%' && at + 2 < uri.size() && hexDigit(uri[at + 1]) >= 0 && hexDigit(uri[at + 2]) >= 0;
+    const bool escape =
+        uri[at] == '%' && at + 2 < uri.size() && hexDigit(uri[at + 1]) >= 0 && hexDigit(uri[at + 2]) >= 0;
     out += escape ? static_cast<char>(16 * hexDigit(uri[at + 1]) + hexDigit(uri[at + 2])) : uri[at];
     if (escape) at += 2;
   }
@@ -83,7 +84,8 @@ Result<BufferBytes> openBuffer(const BufferPlace& place, std::size_t index, cons
   BufferBytes buffer;
   std::string source;
   switch (place.source) {
-    case BufferPlace::Source::absent: return badFile(name + " has no data");
+    case BufferPlace::Source::absent:
+      return badFile(name + " has no data");
     case BufferPlace::Source::bin:
       buffer.bytes = container.bin(file);
       source = "the BIN chunk";

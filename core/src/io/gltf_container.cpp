@@ -30,7 +30,8 @@ Result<GltfContainer> openGltf(Bytes file) {
   }
   if (length < kGlbHeaderBytes) return badFile("GLB: the header says " + std::to_string(length) + " bytes");
   if (length < file.size()) {
-    container.warnings.push_back(std::to_string(file.size() - length) + " bytes after the GLB's end are kept as they are");
+    container.warnings.push_back(std::to_string(file.size() - length) +
+                                 " bytes after the GLB's end are kept as they are");
   }
 
   std::uint64_t at = kGlbHeaderBytes;

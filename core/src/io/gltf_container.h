@@ -16,12 +16,10 @@ struct GltfContainer {
   bool isGlb = false;
   std::size_t jsonBegin = 0, jsonEnd = 0;  ///< the JSON text with its padding
   bool hasBin = false;
-  std::size_t binBegin = 0, binEnd = 0;    ///< the GLB's BIN chunk with its padding
+  std::size_t binBegin = 0, binEnd = 0;  ///< the GLB's BIN chunk with its padding
   std::vector<std::string> warnings;
 
-  [[nodiscard]] std::string_view json(Bytes file) const {
-    return asText(file.subspan(jsonBegin, jsonEnd - jsonBegin));
-  }
+  [[nodiscard]] std::string_view json(Bytes file) const { return asText(file.subspan(jsonBegin, jsonEnd - jsonBegin)); }
   [[nodiscard]] Bytes bin(Bytes file) const { return file.subspan(binBegin, binEnd - binBegin); }
 };
 

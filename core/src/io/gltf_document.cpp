@@ -12,7 +12,9 @@ constexpr std::uint64_t kMostEntries = std::uint64_t{1} << 20;
 constexpr std::uint64_t kMostPrimitives = std::uint64_t{1} << 18;
 constexpr std::uint64_t kLargestSize = 0xffffffff;  // of anything counted in bytes or elements, on every platform
 
-std::string number(std::uint64_t value) { return std::to_string(value); }
+std::string number(std::uint64_t value) {
+  return std::to_string(value);
+}
 
 Status checkEntryCount(const char* what, std::uint64_t count, std::uint64_t most = kMostEntries) {
   if (count <= most) return okStatus();
@@ -75,8 +77,10 @@ Status readMeshes(const GltfSections& sections, GltfDocument& document) {
 }
 
 std::uint32_t componentsOf(std::string_view type) {
-  constexpr struct { std::string_view name; std::uint32_t components; } kTypes[] = {
-      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+  constexpr struct {
+    std::string_view name;
+    std::uint32_t components;
+  } kTypes[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
   for (const auto& entry : kTypes) {
     if (type == entry.name) return entry.components;
   }
@@ -200,8 +204,8 @@ Status checkElements(const GltfDocument& document, std::uint32_t index, const st
   const std::uint64_t elementBytes = accessor.elementBytes();
   const std::uint64_t stride = view.byteStride == 0 ? elementBytes : view.byteStride;
   if (stride < elementBytes) {
-    return badFile(place + ": elements of " + number(elementBytes) + " bytes overlap at the byteStride " + number(stride) +
-                   " of bufferView " + number(accessor.view));
+    return badFile(place + ": elements of " + number(elementBytes) + " bytes overlap at the byteStride " +
+                   number(stride) + " of bufferView " + number(accessor.view));
   }
   const bool fits = accessor.byteOffset <= view.byteLength && elementBytes <= view.byteLength - accessor.byteOffset &&
                     accessor.count - 1 <= (view.byteLength - accessor.byteOffset - elementBytes) / stride;
@@ -228,7 +232,8 @@ Status checkTriangles(const GltfDocument& document, const GltfPrimitive& primiti
   if (primitive.indices == kNone) return okStatus();
   const GltfAccessor& indices = document.accessors[primitive.indices];
   const std::string indicesPlace = primitive.place() + " indices (accessor " + number(primitive.indices) + ")";
-  const bool unsignedType = indices.componentType == 5121 || indices.componentType == 5123 || indices.componentType == 5125;
+  const bool unsignedType =
+      indices.componentType == 5121 || indices.componentType == 5123 || indices.componentType == 5125;
   if (indices.components != 1 || !unsignedType) return badFile(indicesPlace + ": is not a SCALAR of unsigned integers");
   if (indices.sparse) return unsupportedFile(indicesPlace + ": sparse accessors are not supported by this version");
   if (indices.view == kNone) return unsupportedFile(indicesPlace + ": accessors without bufferView are not supported");
@@ -252,7 +257,9 @@ void GltfDocument::warn(std::string text) {
   if (warnings.size() == kMostWarnings) warnings.back() = "more warnings of this kind were left out";
 }
 
-std::string GltfPrimitive::place() const { return "mesh " + number(mesh) + " primitive " + number(index); }
+std::string GltfPrimitive::place() const {
+  return "mesh " + number(mesh) + " primitive " + number(index);
+}
 
 const char* primitiveModeName(std::uint32_t mode) {
   constexpr const char* kNames[] = {"POINTS",    "LINES",          "LINE_LOOP",   "LINE_STRIP",
@@ -272,12 +279,15 @@ Result<GltfDocument> readGltfDocument(std::string_view json, std::size_t jsonBeg
   if (document.version.substr(0, 2) != "2.") return unsupportedFile("glTF version " + quoted(document.version));
   constexpr std::size_t kMostExtensions = 1000;  // for the report only; no sane file comes near
   sections.extensionsUsed.forEachElement([&](JsonValue name) {
-    if (name.isString() && document.extensionsUsed.size() < kMostExtensions) document.extensionsUsed.push_back(name.asString());
+    if (name.isString() && document.extensionsUsed.size() < kMostExtensions)
+      document.extensionsUsed.push_back(name.asString());
   });
 
-  const struct { const char* name; JsonValue array; } arrays[] = {{"buffers", sections.buffers},
-                                                                  {"bufferViews", sections.bufferViews},
-                                                                  {"accessors", sections.accessors}};
+  const struct {
+    const char* name;
+    JsonValue array;
+  } arrays[] = {
+      {"buffers", sections.buffers}, {"bufferViews", sections.bufferViews}, {"accessors", sections.accessors}};
   std::size_t counts[3];
   for (int i = 0; i < 3; ++i) {
     counts[i] = arrays[i].array.elementCount();

@@ -41,7 +41,8 @@ class FieldReader {
   std::uint64_t check(std::string_view name, JsonValue value, std::uint64_t largest) {
     const std::optional<std::uint64_t> number = value.asUnsigned();
     if (number && *number <= largest) return *number;
-    fail(std::string(name) + " is " + quoted(value.text()) + ", expected an integer from 0 to " + std::to_string(largest));
+    fail(std::string(name) + " is " + quoted(value.text()) + ", expected an integer from 0 to " +
+         std::to_string(largest));
     return 0;
   }
 

@@ -15,12 +15,18 @@ namespace {
 
 const char* typeName(std::uint32_t components) {
   switch (components) {
-    case 1: return "SCALAR";
-    case 2: return "VEC2";
-    case 3: return "VEC3";
-    case 4: return "VEC4";
-    case 9: return "MAT3";
-    default: return "MAT4";
+    case 1:
+      return "SCALAR";
+    case 2:
+      return "VEC2";
+    case 3:
+      return "VEC3";
+    case 4:
+      return "VEC4";
+    case 9:
+      return "MAT3";
+    default:
+      return "MAT4";
   }
 }
 
@@ -145,12 +151,14 @@ Status loadThroughTinygltf(GltfDocument& document) {
     accessor.byteOffset = loaded.byteOffset;
     accessor.count = loaded.count;
     accessor.componentType = static_cast<std::uint32_t>(loaded.componentType);
-    accessor.components = static_cast<std::uint32_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(loaded.type)));
+    accessor.components =
+        static_cast<std::uint32_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(loaded.type)));
   }
   for (std::size_t i = 0; i < draft.primitives.size(); ++i) {
     GltfPrimitive& primitive = document.primitives[draft.primitives[i]];
     const std::vector<tinygltf::Primitive>& loaded = model.meshes[i].primitives;
-    const auto position = loaded.empty() ? std::map<std::string, int>::const_iterator{} : loaded[0].attributes.find("POSITION");
+    const auto position =
+        loaded.empty() ? std::map<std::string, int>::const_iterator{} : loaded[0].attributes.find("POSITION");
     if (loaded.size() != 1 || position == loaded[0].attributes.end()) return disagreement(primitive.place());
     primitive.position = static_cast<std::uint32_t>(draft.accessors[position->second]);
     primitive.indices = loaded[0].indices < 0 ? kNone : static_cast<std::uint32_t>(draft.accessors[loaded[0].indices]);

@@ -20,11 +20,14 @@ struct TextEdit {
   std::string text;
 };
 
-std::string_view textAt(Bytes file, FileSpan span) { return asText(file.subspan(span.begin, span.end - span.begin)); }
+std::string_view textAt(Bytes file, FileSpan span) {
+  return asText(file.subspan(span.begin, span.end - span.begin));
+}
 
 Status checkArrays(const std::vector<const PositionArray*>& arrays, Bytes buffer) {
   for (const PositionArray* array : arrays) {
-    if (array->start + array->stride * (array->count - 1) + 12 > buffer.size()) return notTheFile("a buffer is shorter");
+    if (array->start + array->stride * (array->count - 1) + 12 > buffer.size())
+      return notTheFile("a buffer is shorter");
   }
   return okStatus();
 }
@@ -101,7 +104,8 @@ Status editBound(Bytes file, FileSpan span, const float (&before)[3], const floa
 }
 
 /// The JSON text with its edits (sorted, disjoint), and the self-check that all else is equal.
-Result<std::string> applyEdits(Bytes file, FileSpan json, const std::vector<TextEdit>& edits, std::uint64_t& bytesChanged) {
+Result<std::string> applyEdits(Bytes file, FileSpan json, const std::vector<TextEdit>& edits,
+                               std::uint64_t& bytesChanged) {
   std::string out;
   out.reserve(json.end - json.begin + 16 * edits.size());
   std::size_t copied = json.begin;
@@ -131,7 +135,8 @@ Result<PatchedFile> GltfModel::patch(std::span<const std::uint8_t> file, const R
                                      std::span<const double> positions) const {
   if (file.size() != fileSize_) return notTheFile("another size");
   if (!positions_.conflict.empty()) return unsupportedFile(positions_.conflict);
-  if (Status status = checkPositions(positions, positions_.vertexCount, Precision::float32); !status) return status.error();
+  if (Status status = checkPositions(positions, positions_.vertexCount, Precision::float32); !status)
+    return status.error();
 
   // 1. Bounds that change, and buffers outside the file or inside its text.
   PatchedFile patched;
@@ -146,7 +151,8 @@ Result<PatchedFile> GltfModel::patch(std::span<const std::uint8_t> file, const R
     if (!before) return before.error();
     if (Status status = checkArrays(arraysOf[i], before->bytes); !status) return status.error();
     for (const Bounds* bounds : boundsOf[i]) {
-      const Extent old = storedExtent(before->bytes, positions_.arrays[bounds->array], bounds->firstVertex, bounds->count);
+      const Extent old =
+          storedExtent(before->bytes, positions_.arrays[bounds->array], bounds->firstVertex, bounds->count);
       const Extent now = newExtent(positions, bounds->firstVertex, bounds->count);
       if (Status status = editBound(file, bounds->min, old.low, now.low, edits); !status) return status.error();
       if (Status status = editBound(file, bounds->max, old.high, now.high, edits); !status) return status.error();
@@ -165,12 +171,14 @@ Result<PatchedFile> GltfModel::patch(std::span<const std::uint8_t> file, const R
     Result<std::string> uri = recodeDataUri(textAt(file, buffers_[i].uri), after, name);
     if (!uri) return uri.error();
     const Result<std::vector<std::uint8_t>> decoded = decodeDataUri(*uri, name);
-    if (!decoded || *decoded != after) return Error{ErrorCode::internal, "self-check: " + name + " decodes differently"};
+    if (!decoded || *decoded != after)
+      return Error{ErrorCode::internal, "self-check: " + name + " decodes differently"};
     edits.push_back(TextEdit{buffers_[i].uri, std::move(uri).value()});
   }
 
   // 2. The JSON text.
-  std::sort(edits.begin(), edits.end(), [](const TextEdit& a, const TextEdit& b) { return a.span.begin < b.span.begin; });
+  std::sort(edits.begin(), edits.end(),
+            [](const TextEdit& a, const TextEdit& b) { return a.span.begin < b.span.begin; });
   const FileSpan jsonSpan{container_.jsonBegin, container_.jsonEnd};
   const std::size_t oldJsonBytes = jsonSpan.end - jsonSpan.begin;
   Result<std::string> json = applyEdits(file, jsonSpan, edits, patched.bytesChanged);
@@ -179,7 +187,9 @@ Result<PatchedFile> GltfModel::patch(std::span<const std::uint8_t> file, const R
 
   // 3. Assembly: everything before the JSON text, the text, everything behind it; lengths and the BIN chunk in place.
   patched.bytes.reserve(file.size() - oldJsonBytes + json->size());
-  const auto append = [&](std::string_view text) { patched.bytes.insert(patched.bytes.end(), text.begin(), text.end()); };
+  const auto append = [&](std::string_view text) {
+    patched.bytes.insert(patched.bytes.end(), text.begin(), text.end());
+  };
   append(textAt(file, {0, jsonSpan.begin}));
   append(*json);
   append(textAt(file, {jsonSpan.end, file.size()}));
@@ -189,7 +199,8 @@ Result<PatchedFile> GltfModel::patch(std::span<const std::uint8_t> file, const R
   if (length > 0xffffffffu) return tooLarge("GLB: the file would exceed 4 GiB");
   store(&patched.bytes[8], static_cast<std::uint32_t>(length));
   store(&patched.bytes[kGlbHeaderBytes], static_cast<std::uint32_t>(json->size()));
-  patched.bytesChanged += countReplaced(textAt(file, {0, jsonSpan.begin}), asText(Bytes(patched.bytes).first(jsonSpan.begin)));
+  patched.bytesChanged +=
+      countReplaced(textAt(file, {0, jsonSpan.begin}), asText(Bytes(patched.bytes).first(jsonSpan.begin)));
   for (std::size_t i = 0; i < buffers_.size(); ++i) {
     if (arraysOf[i].empty() || buffers_[i].source != BufferPlace::Source::bin) continue;
     const std::size_t binBegin = container_.binBegin - jsonSpan.end + jsonSpan.begin + json->size();

@@ -43,7 +43,7 @@ struct FaceSource {
   const PositionWindow* window;
   const std::uint8_t* indices = nullptr;  // null: not indexed
   std::uint32_t componentType = 0;
-  std::uint64_t count = 0;                // of the vertex stream
+  std::uint64_t count = 0;  // of the vertex stream
 
   [[nodiscard]] std::uint64_t mostCorners() const {
     return primitive->mode == 4 ? count / 3 * 3 : count < 3 ? 0 : 3 * (count - 2);
@@ -84,9 +84,12 @@ Status appendFaces(const FaceSource& source, const Stream& stream, Mesh& mesh) {
 Status appendFaces(const FaceSource& source, Mesh& mesh) {
   if (source.indices == nullptr) return appendFaces(source, CountingStream{}, mesh);
   switch (source.componentType) {
-    case 5121: return appendFaces(source, IndexStream<std::uint8_t>{source.indices}, mesh);
-    case 5123: return appendFaces(source, IndexStream<std::uint16_t>{source.indices}, mesh);
-    default: return appendFaces(source, IndexStream<std::uint32_t>{source.indices}, mesh);
+    case 5121:
+      return appendFaces(source, IndexStream<std::uint8_t>{source.indices}, mesh);
+    case 5123:
+      return appendFaces(source, IndexStream<std::uint16_t>{source.indices}, mesh);
+    default:
+      return appendFaces(source, IndexStream<std::uint32_t>{source.indices}, mesh);
   }
 }
 
@@ -229,7 +232,8 @@ Status GltfModel::read(Bytes file, const Resources& resources) {
   if (!arrays) return arrays.error();
   positions_ = std::move(arrays).value();
   if (positions_.arrays.empty()) return badMesh("glTF: the file has no triangles");
-  if (!positions_.conflict.empty()) info_.warnings.push_back(positions_.conflict + "; marking this file will be refused");
+  if (!positions_.conflict.empty())
+    info_.warnings.push_back(positions_.conflict + "; marking this file will be refused");
 
   std::vector<BufferBytes> buffers(buffers_.size());
   std::uint64_t totalBytes = file.size();

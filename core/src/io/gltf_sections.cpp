@@ -7,12 +7,19 @@ GltfSections findSections(JsonValue root, std::string_view text, std::size_t tex
   GltfSections sections;
   sections.text = text;
   sections.textBegin = textBegin;
-  const struct { std::string_view name; JsonValue* value; } wanted[] = {
-      {"asset", &sections.asset},           {"buffers", &sections.buffers},
-      {"bufferViews", &sections.bufferViews}, {"accessors", &sections.accessors},
-      {"meshes", &sections.meshes},         {"nodes", &sections.nodes},
-      {"images", &sections.images},         {"skins", &sections.skins},
-      {"animations", &sections.animations}, {"extensionsUsed", &sections.extensionsUsed}};
+  const struct {
+    std::string_view name;
+    JsonValue* value;
+  } wanted[] = {{"asset", &sections.asset},
+                {"buffers", &sections.buffers},
+                {"bufferViews", &sections.bufferViews},
+                {"accessors", &sections.accessors},
+                {"meshes", &sections.meshes},
+                {"nodes", &sections.nodes},
+                {"images", &sections.images},
+                {"skins", &sections.skins},
+                {"animations", &sections.animations},
+                {"extensionsUsed", &sections.extensionsUsed}};
   root.forEachMember([&](std::string_view key, JsonValue value) {
     for (const auto& entry : wanted) {
       if (keyIs(key, entry.name)) *entry.value = value;
@@ -28,7 +35,9 @@ void markOtherUses(const GltfSections& sections, GltfDocument& document) {
       document.accessors[static_cast<std::size_t>(*index)].usedOtherwise = true;
     }
   };
-  const auto markMembers = [&](JsonValue object) { object.forEachMember([&](std::string_view, JsonValue v) { mark(v); }); };
+  const auto markMembers = [&](JsonValue object) {
+    object.forEachMember([&](std::string_view, JsonValue v) { mark(v); });
+  };
 
   sections.meshes.forEachElement([&](JsonValue mesh) {
     mesh.find("primitives").forEachElement([&](JsonValue primitive) {
@@ -46,9 +55,8 @@ void markOtherUses(const GltfSections& sections, GltfDocument& document) {
       mark(sampler.find("output"));
     });
   });
-  sections.nodes.forEachElement([&](JsonValue node) {
-    markMembers(node.find("extensions").find("EXT_mesh_gpu_instancing").find("attributes"));
-  });
+  sections.nodes.forEachElement(
+      [&](JsonValue node) { markMembers(node.find("extensions").find("EXT_mesh_gpu_instancing").find("attributes")); });
   sections.images.forEachElement([&](JsonValue image) {
     const std::optional<std::uint64_t> view = image.find("bufferView").asUnsigned();
     if (view && *view < document.views.size()) document.imageViews.push_back(static_cast<std::uint32_t>(*view));

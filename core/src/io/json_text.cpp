@@ -209,7 +209,10 @@ std::uint32_t takeUtf8(std::string_view text, std::size_t& at) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const std::uint32_t first = byte(at++);
   if (first < 0x80) return first;
-  const int more = first >= 0xf0 && first < 0xf5 ? 3 : first >= 0xe0 && first < 0xf0 ? 2 : first >= 0xc2 && first < 0xe0 ? 1 : 0;
+  const int more = first >= 0xf0 && first < 0xf5   ? 3
+                   : first >= 0xe0 && first < 0xf0 ? 2
+                   : first >= 0xc2 && first < 0xe0 ? 1
+                                                   : 0;
   if (more == 0) return kReplacement;
   std::uint32_t code = first & (0x3fu >> more);
   for (int i = 0; i < more; ++i) {
@@ -233,13 +236,20 @@ std::uint32_t takeHex(std::string_view text, std::size_t& at) {
 std::uint32_t takeEscape(std::string_view text, std::size_t& at) {
   const char escape = at < text.size() ? text[at++] : '\\';
   switch (escape) {
-    case 'b': return '\b';
-    case 'f': return '\f';
-    case 'n': return '\n';
-    case 'r': return '\r';
-    case 't': return '\t';
-    case 'u': break;
-    default: return static_cast<unsigned char>(escape);
+    case 'b':
+      return '\b';
+    case 'f':
+      return '\f';
+    case 'n':
+      return '\n';
+    case 'r':
+      return '\r';
+    case 't':
+      return '\t';
+    case 'u':
+      break;
+    default:
+      return static_cast<unsigned char>(escape);
   }
   const std::uint32_t code = takeHex(text, at);
   if (code < 0xd800 || code > 0xdfff) return code;
@@ -300,13 +310,19 @@ bool JsonValue::Scanner::nextMember() {
 JsonValue::Kind JsonValue::kind() const {
   if (text_.empty()) return Kind::absent;
   switch (text_[0]) {
-    case '{': return Kind::object;
-    case '[': return Kind::array;
-    case '"': return Kind::string;
+    case '{':
+      return Kind::object;
+    case '[':
+      return Kind::array;
+    case '"':
+      return Kind::string;
     case 't':
-    case 'f': return Kind::boolean;
-    case 'n': return Kind::null;
-    default: return Kind::number;
+    case 'f':
+      return Kind::boolean;
+    case 'n':
+      return Kind::null;
+    default:
+      return Kind::number;
   }
 }
 

@@ -14,9 +14,12 @@ namespace quadmark {
 
 const char* fileFormatName(FileFormat format) {
   switch (format) {
-    case FileFormat::ply: return "ply";
-    case FileFormat::gltf: return "gltf";
-    case FileFormat::glb: return "glb";
+    case FileFormat::ply:
+      return "ply";
+    case FileFormat::gltf:
+      return "gltf";
+    case FileFormat::glb:
+      return "glb";
   }
   return "";
 }

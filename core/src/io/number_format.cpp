@@ -90,7 +90,9 @@ class Word {
   void shiftLeft(int bits) { value_ <<= bits; }
   void add(const Word& other) { value_ += other.value_; }
   void subtract(const Word& other) { value_ -= other.value_; }
-  [[nodiscard]] int compare(const Word& other) const { return value_ < other.value_ ? -1 : value_ > other.value_ ? 1 : 0; }
+  [[nodiscard]] int compare(const Word& other) const {
+    return value_ < other.value_ ? -1 : value_ > other.value_ ? 1 : 0;
+  }
   [[nodiscard]] int compareSum(const Word& other, const Word& limit) const {
     return Word(value_ + other.value_).compare(limit);
   }
@@ -119,12 +121,14 @@ Digits shortestDigits(std::uint64_t mantissa, int exponent, bool atPowerOfTwo) {
   below.shiftLeft(exponent > 0 ? exponent : 0);
   above.shiftLeft((exponent > 0 ? exponent : 0) + extraBit - 1);
 
-  // 1. Scale by the power of ten that brings the value into [0.1, 1): an estimate from the bit length, then a correction.
+  // 1. Scale by the power of ten that brings the value into [0.1, 1): an estimate from the bit length, then a
+  // correction.
   int bits = 0;
   for (std::uint64_t rest = mantissa; rest != 0; rest >>= 1) ++bits;
   const int log2Floor = exponent + bits - 1;
   Digits result;
-  result.exponent = static_cast<int>((std::int64_t{log2Floor} * 78913) >> 18);  // floor(log10(2^log2Floor)), or one less
+  result.exponent =
+      static_cast<int>((std::int64_t{log2Floor} * 78913) >> 18);  // floor(log10(2^log2Floor)), or one less
   if (result.exponent > 0) {
     scale.multiplyByPowerOfTen(result.exponent);
   } else {

@@ -16,7 +16,9 @@ struct Decimal {
   std::int64_t exponent = 0;
 };
 
-bool isDigit(char character) { return character >= '0' && character <= '9'; }
+bool isDigit(char character) {
+  return character >= '0' && character <= '9';
+}
 
 /// Checks the grammar [+-] digits [. digits] [(e|E) [+-] digits] with a digit on at least one side of the point.
 std::optional<Decimal> takeApart(std::string_view text) {
@@ -137,8 +139,12 @@ std::optional<T> parseNumber(std::string_view text) {
 
 }  // namespace
 
-std::optional<float> parseFloat(std::string_view text) { return parseNumber<float>(text); }
-std::optional<double> parseDouble(std::string_view text) { return parseNumber<double>(text); }
+std::optional<float> parseFloat(std::string_view text) {
+  return parseNumber<float>(text);
+}
+std::optional<double> parseDouble(std::string_view text) {
+  return parseNumber<double>(text);
+}
 
 std::optional<std::int64_t> parseInteger(std::string_view text) {
   if (!text.empty() && text[0] == '+') {

@@ -20,9 +20,9 @@ std::optional<std::int64_t> parseInteger(std::string_view text);
 /// The shortest decimal that parses back to the same value and, of those, the nearest to it; plain notation between
 /// 1e-5 and 1e16, otherwise like "1.5e-7". Valid JSON. The value must be finite.
 ///
-/// Own digits (Steele and White 1990 with exact integers) because std::to_chars is missing in Emscripten's libc++ 13, and
-/// marked files must not depend on the platform. printf with growing precision is not the same: at powers of two
-/// it misses some of the shortest.
+/// Own digits (Steele and White 1990 with exact integers) because std::to_chars is missing in Emscripten's libc++ 13,
+/// and marked files must not depend on the platform. printf with growing precision is not the same: at powers of two it
+/// misses some of the shortest.
 std::string formatShortest(float value);
 std::string formatShortest(double value);
 

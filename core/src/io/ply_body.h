@@ -36,7 +36,10 @@ bool skipProperty(Cursor& cursor, const PlyProperty& property) {
 class BinaryPlyCursor {
  public:
   BinaryPlyCursor(Bytes file, const PlyHeader& header)
-      : file_(file.data()), at_(file.data() + header.bodyBegin), end_(file.data() + file.size()), order_(header.order()) {}
+      : file_(file.data()),
+        at_(file.data() + header.bodyBegin),
+        end_(file.data() + file.size()),
+        order_(header.order()) {}
 
   [[nodiscard]] std::size_t position() const { return static_cast<std::size_t>(at_ - file_); }
   [[nodiscard]] const std::uint8_t* current() const { return at_; }
@@ -66,13 +69,26 @@ class BinaryPlyCursor {
     const std::uint8_t* bytes = take(sizeBytes(type));
     if (bytes == nullptr) return false;
     switch (type) {
-      case PlyType::int8: value = load<std::int8_t>(bytes); break;
-      case PlyType::uint8: value = load<std::uint8_t>(bytes); break;
-      case PlyType::int16: value = load<std::int16_t>(bytes, order_); break;
-      case PlyType::uint16: value = load<std::uint16_t>(bytes, order_); break;
-      case PlyType::int32: value = load<std::int32_t>(bytes, order_); break;
-      case PlyType::uint32: value = load<std::uint32_t>(bytes, order_); break;
-      default: return fail(PlyFault::notANumber);
+      case PlyType::int8:
+        value = load<std::int8_t>(bytes);
+        break;
+      case PlyType::uint8:
+        value = load<std::uint8_t>(bytes);
+        break;
+      case PlyType::int16:
+        value = load<std::int16_t>(bytes, order_);
+        break;
+      case PlyType::uint16:
+        value = load<std::uint16_t>(bytes, order_);
+        break;
+      case PlyType::int32:
+        value = load<std::int32_t>(bytes, order_);
+        break;
+      case PlyType::uint32:
+        value = load<std::uint32_t>(bytes, order_);
+        break;
+      default:
+        return fail(PlyFault::notANumber);
     }
     return true;
   }

@@ -9,10 +9,13 @@ namespace quadmark::io {
 namespace {
 
 std::optional<PlyType> typeByName(std::string_view name) {
-  constexpr struct { std::string_view oldName, newName; PlyType type; } kNames[] = {
-      {"char", "int8", PlyType::int8},      {"uchar", "uint8", PlyType::uint8},
-      {"short", "int16", PlyType::int16},   {"ushort", "uint16", PlyType::uint16},
-      {"int", "int32", PlyType::int32},     {"uint", "uint32", PlyType::uint32},
+  constexpr struct {
+    std::string_view oldName, newName;
+    PlyType type;
+  } kNames[] = {
+      {"char", "int8", PlyType::int8},        {"uchar", "uint8", PlyType::uint8},
+      {"short", "int16", PlyType::int16},     {"ushort", "uint16", PlyType::uint16},
+      {"int", "int32", PlyType::int32},       {"uint", "uint32", PlyType::uint32},
       {"float", "float32", PlyType::float32}, {"double", "float64", PlyType::float64},
   };
   for (const auto& entry : kNames) {
@@ -151,13 +154,17 @@ Status checkCounts(const PlyHeader& header, std::uint64_t bytesLeft) {
 std::uint32_t sizeBytes(PlyType type) {
   switch (type) {
     case PlyType::int8:
-    case PlyType::uint8: return 1;
+    case PlyType::uint8:
+      return 1;
     case PlyType::int16:
-    case PlyType::uint16: return 2;
+    case PlyType::uint16:
+      return 2;
     case PlyType::int32:
     case PlyType::uint32:
-    case PlyType::float32: return 4;
-    case PlyType::float64: return 8;
+    case PlyType::float32:
+      return 4;
+    case PlyType::float64:
+      return 8;
   }
   return 8;
 }

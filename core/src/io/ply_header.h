@@ -14,12 +14,14 @@ enum class PlyEncoding : std::uint8_t { ascii, littleEndian, bigEndian };
 
 enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-inline bool isFloating(PlyType type) { return type == PlyType::float32 || type == PlyType::float64; }
+inline bool isFloating(PlyType type) {
+  return type == PlyType::float32 || type == PlyType::float64;
+}
 std::uint32_t sizeBytes(PlyType type);
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::uint8;       ///< of the scalar or of the list's items
+  PlyType type = PlyType::uint8;  ///< of the scalar or of the list's items
   bool isList = false;
   PlyType countType = PlyType::uint8;  ///< of the list's length
 };
@@ -37,9 +39,9 @@ struct PlyElement {
 
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
-  std::string variant;            ///< "ascii 1.0", ...
+  std::string variant;  ///< "ascii 1.0", ...
   std::vector<PlyElement> elements;
-  std::size_t bodyBegin = 0;      ///< byte after the header's last line break
+  std::size_t bodyBegin = 0;  ///< byte after the header's last line break
 
   [[nodiscard]] ByteOrder order() const {
     return encoding == PlyEncoding::bigEndian ? ByteOrder::big : ByteOrder::little;

@@ -119,7 +119,8 @@ Result<PatchedFile> PlyModel::patchText(Bytes file, std::span<const double> posi
 Status PlyModel::checkPatchedText(Bytes file, Bytes patched, std::span<const double> positions) const {
   const PlyElement& element = vertexElement();
   const auto failed = [](std::uint64_t row) {
-    return Error{ErrorCode::internal, "self-check: the row of vertex " + std::to_string(row) + " changed beyond its position"};
+    return Error{ErrorCode::internal,
+                 "self-check: the row of vertex " + std::to_string(row) + " changed beyond its position"};
   };
   PlyHeader body = header_;
   body.bodyBegin = vertexBegin_;

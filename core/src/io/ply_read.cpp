@@ -29,9 +29,11 @@ template <class Cursor>
 Error faultAt(const Cursor& cursor, const std::string& element, std::uint64_t row, const PlyProperty& property) {
   const std::string where = element + " " + std::to_string(row) + ", property " + quoted(property.name);
   switch (cursor.fault()) {
-    case PlyFault::truncated: return badFile("PLY: the file ends (" + cursor.place() + ") inside " + where);
+    case PlyFault::truncated:
+      return badFile("PLY: the file ends (" + cursor.place() + ") inside " + where);
     case PlyFault::listTooLong:
-      return badFile("PLY " + cursor.place() + ": " + where + ": the list's length does not fit into the rest of the file");
+      return badFile("PLY " + cursor.place() + ": " + where +
+                     ": the list's length does not fit into the rest of the file");
     default:
       return badFile("PLY " + cursor.place() + ": " + where + ": " + quoted(cursor.lastText()) +
                      " is not a number of its type");
@@ -71,7 +73,8 @@ Status readFixedRows(const std::uint8_t* rows, std::uint64_t count, std::uint64_
 }
 
 /// The common case of a face list, 4-byte indices: adds corners until one is out of range, which is left to the caller.
-std::uint64_t addCorners(BinaryPlyCursor& cursor, std::uint64_t length, std::uint64_t vertexCount, FaceCollector& faces) {
+std::uint64_t addCorners(BinaryPlyCursor& cursor, std::uint64_t length, std::uint64_t vertexCount,
+                         FaceCollector& faces) {
   const std::uint8_t* item = cursor.current();
   std::uint64_t added = 0;
   for (; added < length; ++added, item += 4) {
@@ -94,7 +97,8 @@ Status PlyModel::checkVertexElement() const {
     const PlyProperty& property = element.properties[axisProperty_[axis]];
     if (property.isList) return badFile("PLY vertex property \"" + name + "\" is a list");
     if (!isFloating(property.type)) {
-      return unsupportedFile("PLY vertex property \"" + name + "\" has an integer type; coordinates must be float or double");
+      return unsupportedFile("PLY vertex property \"" + name +
+                             "\" has an integer type; coordinates must be float or double");
     }
     if (property.type != element.properties[axisProperty_[0]].type) {
       return unsupportedFile("PLY vertex properties x, y and z are of different types");
@@ -119,9 +123,10 @@ Status PlyModel::readVertices(Cursor& cursor, const PlyElement& element) {
       }
       const std::uint8_t* rows = cursor.current();
       if (Status status = skipElement(cursor, element); !status) return status;
-      return type == PlyType::float32
-                 ? readFixedRows<float>(rows, element.count, element.rowBytes, offsets, header_.order(), mesh_.positions)
-                 : readFixedRows<double>(rows, element.count, element.rowBytes, offsets, header_.order(), mesh_.positions);
+      return type == PlyType::float32 ? readFixedRows<float>(rows, element.count, element.rowBytes, offsets,
+                                                             header_.order(), mesh_.positions)
+                                      : readFixedRows<double>(rows, element.count, element.rowBytes, offsets,
+                                                              header_.order(), mesh_.positions);
     }
   }
   for (std::uint64_t row = 0; row < element.count; ++row) {
@@ -202,7 +207,8 @@ Status PlyModel::readFaces(Cursor& cursor, const PlyElement& element, bool isLas
     }
   }
   if (faces.droppedPolygons() > 0) {
-    info_.warnings.push_back(std::to_string(faces.droppedPolygons()) + " faces with fewer than 3 corners are passed through");
+    info_.warnings.push_back(std::to_string(faces.droppedPolygons()) +
+                             " faces with fewer than 3 corners are passed through");
   }
   return okStatus();
 }
