@@ -145,18 +145,79 @@ TEST(Decisions, D25ScramblesNoVertexOrderUnlessAsked) {
   const auto read = readModel(plain->file.bytes);
   ASSERT_TRUE(read.ok());
   EXPECT_EQ((*read)->mesh().faceVertices, mesh.faceVertices);  // the order is the file's own
-  // Asked for, it is done or refused by name, never ignored.
+  EXPECT_EQ(plain->reportJson.find("scrambled"), std::string::npos);
+  // Asked for, the order is another one for every key; faces and mark are the same.
+  const auto corners = [](const Mesh& of) {
+    std::vector<double> out;
+    for (std::uint32_t v : of.faceVertices) out.insert(out.end(), &of.positions[3 * v], &of.positions[3 * v] + 3);
+    return out;
+  };
   request.key.params.scrambleOrder = true;
-  const auto scrambled = embed(file, {}, request);
-  if (scrambled.ok()) {
-    const auto after = readModel(scrambled->file.bytes);
-    ASSERT_TRUE(after.ok());
-    EXPECT_NE((*after)->mesh().faceVertices, mesh.faceVertices);
-    EXPECT_TRUE(readsExactly((*after)->mesh(), request.key, kBits));
-  } else {
-    EXPECT_EQ(scrambled.error().code, ErrorCode::unsupportedFile);
-    EXPECT_NE(scrambled.error().message.find("scrambleOrder"), std::string::npos);
+  std::vector<std::vector<std::uint32_t>> orders = {mesh.faceVertices};
+  for (const Key& key : {request.key, strangersKey(request.key, 1)}) {
+    request.key = key;
+    request.key.params.scrambleOrder = false;
+    const auto unmoved = embed(file, {}, request);
+    request.key.params.scrambleOrder = true;
+    const auto scrambled = embed(file, {}, request);
+    ASSERT_TRUE(unmoved.ok() && scrambled.ok()) << scrambled.error().message;
+    const auto before = readModel(unmoved->file.bytes), after = readModel(scrambled->file.bytes);
+    ASSERT_TRUE(before.ok() && after.ok());
+    EXPECT_EQ(corners((*after)->mesh()), corners((*before)->mesh()));
+    EXPECT_TRUE(readsExactly((*after)->mesh(), key, kBits));
+    EXPECT_NE(scrambled->reportJson.find("the order of the vertices was scrambled (" +
+                                         std::to_string(mesh.vertexCount()) + " of "),
+              std::string::npos);
+    EXPECT_EQ(scrambled->file.bytesChanged, countChangedBytes(file, {}, scrambled->file));
+    EXPECT_EQ(std::count(orders.begin(), orders.end(), (*after)->mesh().faceVertices), 0);
+    orders.push_back((*after)->mesh().faceVertices);
+    EXPECT_EQ(embed(file, {}, request)->file.bytes, scrambled->file.bytes);
   }
+}
+
+TEST(Decisions, D25SaysSoWhereNoOrderCanBeScrambled) {
+  // Without indices the order of the vertices is that of the triangles.
+  Mesh mesh = lab::sculpture(1500);
+  std::vector<double> corners;
+  for (std::uint32_t v : mesh.faceVertices)
+    corners.insert(corners.end(), &mesh.positions[3 * v], &mesh.positions[3 * v] + 3);
+  std::string json =
+      R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":N}],"bufferViews":[{"buffer":0,"byteLength":N}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"count":V,"type":"VEC3"}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})";
+  const auto put = [&](char name, std::size_t value) {
+    for (std::size_t at; (at = json.find(std::string(":") + name)) != json.npos;)
+      json.replace(at + 1, 1, std::to_string(value));
+  };
+  put('N', 4 * corners.size());
+  put('V', corners.size() / 3);
+  while (json.size() % 4 != 0) json += ' ';
+  std::vector<std::uint8_t> file;
+  const auto word = [&](std::size_t value) {
+    for (int shift = 0; shift < 32; shift += 8) file.push_back(static_cast<std::uint8_t>(value >> shift));
+  };
+  for (std::size_t value : {std::size_t{0x46546c67}, std::size_t{2}, 28 + json.size() + 4 * corners.size(), json.size(),
+                            std::size_t{0x4e4f534a}})
+    word(value);
+  file.insert(file.end(), json.begin(), json.end());
+  word(4 * corners.size());
+  word(0x004e4942);
+  for (double x : corners) {
+    const float narrow = static_cast<float>(x);
+    const auto* raw = reinterpret_cast<const std::uint8_t*>(&narrow);
+    file.insert(file.end(), raw, raw + 4);
+  }
+  EmbedRequest request;
+  request.key = kKey;
+  request.image = logo(8, 8);
+  const auto plain = embed(file, {}, request);
+  request.key.params.scrambleOrder = true;
+  const auto kept = embed(file, {}, request);
+  ASSERT_TRUE(plain.ok() && kept.ok()) << kept.error().message;
+  EXPECT_EQ(kept->file.bytes, plain->file.bytes);
+  EXPECT_EQ(kept->file.bytesChanged, plain->file.bytesChanged);
+  EXPECT_NE(kept->reportJson.find("could not be scrambled"), std::string::npos);
+  EXPECT_NE(kept->reportJson.find("mesh 0 primitive 0 has no indices"), std::string::npos);
 }
 
 TEST(Decisions, ReportsErasuresAsHalfAnError) {

@@ -9,6 +9,7 @@
 #include "quadmark/embed.h"
 #include "quadmark/extract.h"
 #include "quadmark/metrics.h"
+#include "quadmark/prf.h"
 #include "report.h"
 
 namespace quadmark {
@@ -86,6 +87,49 @@ std::vector<std::string> embedWarnings(const Model& model, const MarkedMesh& mar
   return warnings;
 }
 
+/// A keyed order: a Fisher-Yates shuffle of each range (docs/format.md, purpose "quadmark/paper/order").
+std::vector<std::uint32_t> keyedOrder(const Key& key, std::size_t vertexCount, const std::vector<VertexRange>& ranges) {
+  const Prf prf(key.secret, "quadmark/paper/order");
+  std::vector<std::uint32_t> order(vertexCount);
+  std::iota(order.begin(), order.end(), 0u);
+  for (std::size_t range = 0; range < ranges.size(); ++range) {
+    std::uint32_t* vertices = order.data() + ranges[range].first;
+    for (std::uint32_t i = ranges[range].count; i > 1; --i)
+      std::swap(vertices[i - 1], vertices[prf.below(std::uint64_t{range} << 32 | i, i)]);
+  }
+  return order;
+}
+
+/// Section 6.4: copies of one model whose vertices come in different orders cannot be averaged vertex by vertex.
+/// @param marked    the patched file; resources that it does not hold are as before.
+/// @param warnings  gets what was done and what was left alone.
+Status scrambleOrder(std::span<const std::uint8_t> file, const Resources& resources, const Key& key,
+                     PatchedFile& marked, std::vector<std::string>& warnings) {
+  // Read anew: texts that the patch wrote may have moved everything behind them.
+  Resources all = marked.resources;
+  all.insert(resources.begin(), resources.end());  // keeps those that are already there
+  auto model = readModel(marked.bytes, all);
+  if (!model) return model.error();
+  auto freedom = (*model)->orderFreedom(marked.bytes, all);
+  if (!freedom) return freedom.error();
+  const std::size_t vertexCount = (*model)->mesh().vertexCount();
+  std::uint64_t moved = 0;
+  for (const VertexRange& range : freedom->ranges) moved += range.count;
+  if (moved > 0) {
+    auto reordered = (*model)->reorder(marked.bytes, all, keyedOrder(key, vertexCount, freedom->ranges));
+    if (!reordered) return reordered.error();
+    marked.bytes = std::move(reordered->bytes);
+    for (auto& [uri, bytes] : reordered->resources) marked.resources[uri] = std::move(bytes);
+    marked.bytesChanged = countChangedBytes(file, resources, marked);
+    warnings.push_back("the order of the vertices was scrambled (" + std::to_string(moved) + " of " +
+                       std::to_string(vertexCount) + ")");
+  } else {
+    warnings.push_back("the order of the vertices could not be scrambled");
+  }
+  warnings.insert(warnings.end(), freedom->warnings.begin(), freedom->warnings.end());
+  return okStatus();
+}
+
 }  // namespace
 
 const char* version() { return QUADMARK_VERSION; }
@@ -95,8 +139,6 @@ Result<EmbedResponse> embed(std::span<const std::uint8_t> file, const Resources&
   if (Status s = validate(request.key.params); !s) return s.error();
   auto bits = payloadBits(request);
   if (!bits) return bits.error();
-  if (request.key.params.scrambleOrder)
-    return Error{ErrorCode::unsupportedFile, "scrambleOrder: rewriting a file's vertex order is not available for this format"};
   if (!tell(request.progress, "read", 0)) return cancelled();
   auto model = readModel(file, resources);
   if (!model) return model.error();
@@ -113,7 +155,11 @@ Result<EmbedResponse> embed(std::span<const std::uint8_t> file, const Resources&
   auto patched = (*model)->patch(file, resources, marked->positions);
   if (!patched) return patched.error();
   response.file = std::move(*patched);
-  const std::vector<std::string> warnings = embedWarnings(**model, *marked);
+  std::vector<std::string> warnings = embedWarnings(**model, *marked);
+  if (request.key.params.scrambleOrder) {
+    model->reset();  // the marked file is read instead
+    if (Status s = scrambleOrder(file, resources, request.key, response.file, warnings); !s) return s.error();
+  }
   response.reportJson = formatReport(EmbedReport{request.key, *marked, measured, response.file.bytesChanged, warnings});
   tell(request.progress, "report", 1);
   return response;

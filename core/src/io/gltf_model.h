@@ -13,6 +13,10 @@ class GltfModel final : public Model {
   Status read(Bytes file, const Resources& resources);
   [[nodiscard]] Result<PatchedFile> patch(std::span<const std::uint8_t> file, const Resources& resources,
                                           std::span<const double> positions) const override;
+  [[nodiscard]] Result<OrderFreedom> orderFreedom(std::span<const std::uint8_t> file,
+                                                  const Resources& resources) const override;
+  [[nodiscard]] Result<PatchedFile> reorder(std::span<const std::uint8_t> file, const Resources& resources,
+                                            std::span<const std::uint32_t> order) const override;
 
  private:
   /// The min and max of an accessor, to be kept true to the vertices it covers.

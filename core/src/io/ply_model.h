@@ -12,6 +12,10 @@ class PlyModel final : public Model {
   Status read(Bytes file);
   [[nodiscard]] Result<PatchedFile> patch(std::span<const std::uint8_t> file, const Resources& resources,
                                           std::span<const double> positions) const override;
+  [[nodiscard]] Result<OrderFreedom> orderFreedom(std::span<const std::uint8_t> file,
+                                                  const Resources& resources) const override;
+  [[nodiscard]] Result<PatchedFile> reorder(std::span<const std::uint8_t> file, const Resources& resources,
+                                            std::span<const std::uint32_t> order) const override;
 
  private:
   template <class Cursor>

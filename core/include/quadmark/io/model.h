@@ -41,6 +41,17 @@ struct ModelInfo {
   std::vector<std::string> warnings;        ///< e.g. "mesh 2 primitive 0: POINTS are passed through"
 };
 
+/// A run of vertices of mesh() that the file stores as one array.
+struct VertexRange {
+  std::uint32_t first = 0, count = 0;
+};
+
+/// Which vertices of a file may change places.
+struct OrderFreedom {
+  std::vector<VertexRange> ranges;    ///< ascending and disjoint; inside each of them any order is possible
+  std::vector<std::string> warnings;  ///< arrays whose order is fixed, and references that cannot be followed
+};
+
 /// A parsed model. Owns no copy of the input bytes; patch() is given them again.
 class Model {
  public:
@@ -71,6 +82,25 @@ class Model {
   [[nodiscard]] virtual Result<PatchedFile> patch(std::span<const std::uint8_t> file, const Resources& resources,
                                                   std::span<const double> positions) const = 0;
 
+  /// Which vertices reorder() can exchange. PLY: all of them, one range. glTF: a range per array of positions that only
+  /// indexed primitives draw, whose other attributes and morph targets (as many elements each, neither sparse nor
+  /// compressed) and indices serve no other array; the rest is named in the warnings.
+  /// @param file, resources  the same bytes that were read.
+  [[nodiscard]] virtual Result<OrderFreedom> orderFreedom(std::span<const std::uint8_t> file,
+                                                          const Resources& resources) const = 0;
+
+  /// Changes the order in which the file stores its vertices: moves their records (all attributes of a vertex together)
+  /// and rewrites the indices to them, so that every face has the same corners as before. All other bytes stay; a
+  /// record keeps its spelling, an index its width. Text around records stays in place. In glTF the min / max of
+  /// index accessors follow.
+  /// @param file, resources  the same bytes that were read; mesh() must be as read, too.
+  /// @param order            for each vertex of mesh() after the call, the vertex it was before: a permutation that
+  ///                         leaves every range of orderFreedom(), and every vertex outside of them, in its place.
+  /// @return the new file with bytesChanged counted against `file`; badOption for any other `order`; `internal` if
+  ///         the result does not read back as the same faces.
+  [[nodiscard]] virtual Result<PatchedFile> reorder(std::span<const std::uint8_t> file, const Resources& resources,
+                                                    std::span<const std::uint32_t> order) const = 0;
+
  protected:
   Mesh mesh_;
   ModelInfo info_;
@@ -86,6 +116,11 @@ class Model {
 /// depend on may be broken. Bytes behind the file's proper end are ignored with a warning: viewers ignore them too, so
 /// they must not hide a mark.
 [[nodiscard]] Result<std::unique_ptr<Model>> readModel(std::span<const std::uint8_t> file, const Resources& resources = {});
+
+/// Bytes that differ between a file and another version of it, main file and resources together. Binary parts are
+/// compared byte by byte, texts (ascii PLY, JSON) word by word, so that a word that grew does not count what follows.
+[[nodiscard]] std::uint64_t countChangedBytes(std::span<const std::uint8_t> file, const Resources& resources,
+                                              const PatchedFile& after);
 
 /// The URIs of external buffers a glTF refers to (not images), so that a caller can fetch them before readModel().
 /// Empty for GLB without external buffers and for PLY; fails with badFile on broken JSON.
