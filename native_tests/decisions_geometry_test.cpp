@@ -126,9 +126,10 @@ TEST(Decisions, D07ConstructsTheSetWithTheLeastProjectionWithinLambda) {
 }
 
 TEST(Decisions, D07TurnsNoFaceOver) {
-  for (const auto& [name, mesh] : roomyMeshes())
+  for (const NamedMesh& named : roomyMeshes())
     for (const double lambda : {1e-3, 2e-2}) {
-      SCOPED_TRACE(name);
+      SCOPED_TRACE(named.name);
+      const Mesh& mesh = named.mesh;  // clang 14 cannot capture a structured binding
       PaperParams params;
       params.lambda = lambda;
       const WeldedMesh welded = weld(mesh);
