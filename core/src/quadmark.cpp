@@ -87,15 +87,23 @@ std::vector<std::string> embedWarnings(const Model& model, const MarkedMesh& mar
   return warnings;
 }
 
-/// A keyed order: a Fisher-Yates shuffle of each range (docs/format.md, purpose "quadmark/paper/order").
-std::vector<std::uint32_t> keyedOrder(const Key& key, std::size_t vertexCount, const std::vector<VertexRange>& ranges) {
+/// A keyed order: a Fisher-Yates shuffle of each range (docs/format.md, purpose "quadmark/paper/order"). It depends on the
+/// payload too, so that copies with different payloads under one key differ in order, which is the point.
+std::vector<std::uint32_t> keyedOrder(const Key& key, std::span<const std::uint8_t> bits, std::size_t vertexCount,
+                                      const std::vector<VertexRange>& ranges) {
   const Prf prf(key.secret, "quadmark/paper/order");
+  std::uint64_t payload = bits.size();
+  for (std::size_t first = 0; first < bits.size(); first += 64) {
+    std::uint64_t word = 0;
+    for (std::size_t i = first; i < std::min(first + 64, bits.size()); ++i) word = word << 1 | bits[i];
+    payload = prf(payload ^ word);
+  }
   std::vector<std::uint32_t> order(vertexCount);
   std::iota(order.begin(), order.end(), 0u);
   for (std::size_t range = 0; range < ranges.size(); ++range) {
     std::uint32_t* vertices = order.data() + ranges[range].first;
     for (std::uint32_t i = ranges[range].count; i > 1; --i)
-      std::swap(vertices[i - 1], vertices[prf.below(std::uint64_t{range} << 32 | i, i)]);
+      std::swap(vertices[i - 1], vertices[prf.below(payload ^ (std::uint64_t{range} << 32 | i), i)]);
   }
   return order;
 }
@@ -104,7 +112,7 @@ std::vector<std::uint32_t> keyedOrder(const Key& key, std::size_t vertexCount, c
 /// @param marked    the patched file; resources that it does not hold are as before.
 /// @param warnings  gets what was done and what was left alone.
 Status scrambleOrder(std::span<const std::uint8_t> file, const Resources& resources, const Key& key,
-                     PatchedFile& marked, std::vector<std::string>& warnings) {
+                     std::span<const std::uint8_t> bits, PatchedFile& marked, std::vector<std::string>& warnings) {
   // Read anew: texts that the patch wrote may have moved everything behind them.
   Resources all = marked.resources;
   all.insert(resources.begin(), resources.end());  // keeps those that are already there
@@ -116,7 +124,7 @@ Status scrambleOrder(std::span<const std::uint8_t> file, const Resources& resour
   std::uint64_t moved = 0;
   for (const VertexRange& range : freedom->ranges) moved += range.count;
   if (moved > 0) {
-    auto reordered = (*model)->reorder(marked.bytes, all, keyedOrder(key, vertexCount, freedom->ranges));
+    auto reordered = (*model)->reorder(marked.bytes, all, keyedOrder(key, bits, vertexCount, freedom->ranges));
     if (!reordered) return reordered.error();
     marked.bytes = std::move(reordered->bytes);
     for (auto& [uri, bytes] : reordered->resources) marked.resources[uri] = std::move(bytes);
@@ -158,7 +166,7 @@ Result<EmbedResponse> embed(std::span<const std::uint8_t> file, const Resources&
   std::vector<std::string> warnings = embedWarnings(**model, *marked);
   if (request.key.params.scrambleOrder) {
     model->reset();  // the marked file is read instead
-    if (Status s = scrambleOrder(file, resources, request.key, response.file, warnings); !s) return s.error();
+    if (Status s = scrambleOrder(file, resources, request.key, *bits, response.file, warnings); !s) return s.error();
   }
   response.reportJson = formatReport(EmbedReport{request.key, *marked, measured, response.file.bytesChanged, warnings});
   tell(request.progress, "report", 1);
