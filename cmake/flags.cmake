@@ -3,7 +3,9 @@
 # and never fast-math or -march.
 add_library(quadmark_flags INTERFACE)
 target_compile_options(quadmark_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-                                                -ffp-contract=off -fno-fast-math)
+                                                -ffp-contract=off -fno-fast-math
+                                                # Change no value, only errno and signals, and let loops vectorise.
+                                                -fno-math-errno -fno-trapping-math)
 if(QUADMARK_SANITIZE)
   target_compile_options(quadmark_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
                                                   -fno-omit-frame-pointer)

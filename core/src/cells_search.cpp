@@ -132,8 +132,9 @@ class Searcher {
       Quad chosen;
       // Twice the area of a triangle in a ball of radius R is at most 2.6 R^2.
       ring_.forEach(2.6 * lambda_ * ring_.radius2(), [&](int i, int j, int k, int l, double determinant) {
-        const double h2 = determinant * determinant / largestNormal2(i, j, k, l);
-        if (!(h2 <= bestH2)) return;
+        const double volume2 = determinant * determinant, largest = largestNormal2(i, j, k, l);
+        if (!(volume2 <= bestH2 * largest)) return;
+        const double h2 = volume2 / largest;
         const std::uint32_t ids[4] = {ring_.vertex(i), ring_.vertex(j), ring_.vertex(k), ring_.vertex(l)};
         for (int r = 0; r < refusals; ++r)
           if (std::equal(ids, ids + 4, refused[r])) return;

@@ -99,14 +99,16 @@ void Embedder::separate() {
   std::vector<std::uint32_t> seeds;
   std::vector<std::uint8_t> movedCell(cells_.size());
   std::uint64_t salt = 1;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round <= kRounds; ++round) {
     std::vector<Quad> unwanted;
     forEachCoplanarSet(welded_, positions_, key_.params.k, rounding_, {kUnwantedUnits, 1.0}, {},
                        [&](const Quad& set) {
                          if (!isCell(set)) unwanted.push_back(set);
                        },
                        round == 0 ? nullptr : &seeds);
-    if (unwanted.empty()) return;
+    separated_ = unwanted.empty();
+    if (separated_) return;
+    if (round == kRounds) return;  // only to know whether the last round was enough
     std::vector<std::uint32_t> changed;
     std::fill(movedCell.begin(), movedCell.end(), std::uint8_t{0});
     std::vector<std::uint8_t> lifted(welded_.vertexCount(), 0);

@@ -53,6 +53,7 @@ std::vector<std::uint32_t> Embedder::badPieces(const Extraction& read) const {
 void Embedder::repair(const std::vector<std::uint32_t>& bad, const Extraction& read, std::uint64_t& salt) {
   std::vector<std::uint8_t> isBad(pieces_.size(), 0), moved(cells_.size(), 0);
   for (std::uint32_t piece : bad) isBad[piece] = 1;
+  separated_ = false;
   std::vector<std::uint32_t> changed;
   const auto rewrite = [&](std::uint32_t cell) {
     if (moved[cell] != 0) return;
@@ -143,6 +144,13 @@ Extraction Embedder::read(const WeldedMesh& welded, const std::vector<double>& p
   ExtractOptions options;
   options.keepReadings = keepReadings;
   options.bitsOnly = true;
+  // Right after separate() the sets that are flat in the output are known: they are the cells.
+  std::vector<std::array<std::uint32_t, 4>> sets;
+  if (separated_ && &positions == &positions_) {
+    sets.reserve(cells_.size());
+    for (const PlannedCell& cell : cells_) sets.push_back({cell.quad.a, cell.quad.b, cell.quad.c, cell.quad.d});
+    options.exactSets = sets;
+  }
   return extractMesh(welded, positions, rounding_, key_, options);
 }
 

@@ -109,6 +109,7 @@ class Embedder {
   std::vector<PlannedCell> cells_;
   std::vector<std::uint32_t> cellOf_;     ///< per welded vertex: cell index or kNoVertex
   std::vector<std::uint32_t> copies_;     ///< per piece
+  bool separated_ = false;                ///< separate() left no flat set but the cells
   bool scarce_ = false;                   ///< fewer than kScarceRepeats copies per piece
   MarkedMesh report_;
 };

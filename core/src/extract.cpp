@@ -66,7 +66,8 @@ class Extractor {
     std::vector<Candidate> candidates;
     PurityTable table;
     bool reachedAny = previous == 0;
-    forEachCoplanarSet(welded_, positions_, key_.params.k, rounding_, {units, cap}, used_, [&](const Quad& quad) {
+    candidates.reserve(welded_.vertexCount() / 4);
+    forEachSet({units, cap}, [&](const Quad& quad) {
       const double unit = rounding_.unit(quad, positions_.data()), gapUnits = quad.gap / unit;
       if (gapUnits <= previous) return;
       if (gapUnits > units / 2) reachedAny = true;
@@ -87,8 +88,20 @@ class Extractor {
     return reachedAny;
   }
 
+  void forEachSet(const GapLimit& limit, const std::function<void(const Quad&)>& visit) const {
+    if (limit.relative > 0 || options_.exactSets.empty())
+      return forEachCoplanarSet(welded_, positions_, key_.params.k, rounding_, limit, used_, visit);
+    for (const std::array<std::uint32_t, 4>& set : options_.exactSets) {
+      Quad quad;
+      if (makeQuad(set.data(), positions_.data(), kMinTriangleReading, quad) &&
+          limit.admits(quad, rounding_.unit(quad, positions_.data())))
+        visit(quad);
+    }
+  }
+
   // A vertex belongs to one cell. Where sets compete the purer kind wins, then the longer diagonals (the paper's rule).
   void accept(std::vector<Candidate>& candidates) {
+    accepted_.reserve(accepted_.size() + candidates.size());
     std::vector<std::uint8_t> claims(welded_.vertexCount(), 0);
     const auto votes = [](const Candidate& c) {
       return c.reading.state == ReadingState::ok && c.purity >= kLeastPurity;

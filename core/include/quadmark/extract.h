@@ -2,6 +2,7 @@
 // Reading a mark from a mesh: passes of rising tolerance, votes per bit, verdict (section 4.3; D20-D22).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -53,6 +54,8 @@ struct Extraction {
 
 struct ExtractOptions {
   std::span<const std::uint8_t> reference;  ///< expected payload bits, empty for none
+  /// For a caller that knows them: all sets that are flat up to rounding, so that pass 1 need not look for them.
+  std::span<const std::array<std::uint32_t, 4>> exactSets;
   bool keepReadings = false;
   bool bitsOnly = false;                    ///< leave the verdict, its probabilities and the agreement out
   std::function<bool(int passes)> progress; ///< called before each pass with the number done; false cancels
