@@ -2,7 +2,6 @@
 #include "quadmark/digits.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace quadmark {
 namespace {

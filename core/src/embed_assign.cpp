@@ -7,9 +7,7 @@
 // nearly fits the ratios a cell has anyway.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <deque>
-#include <numeric>
 
 #include "embedder.h"
 
@@ -169,11 +167,11 @@ void Embedder::assignWindow(std::span<std::uint32_t> cells, std::uint32_t firstP
         const std::array<double, kWindow>& to2 = rows.find(p1, p2, [&](std::size_t j) {
           return j < n ? piece.centre(p2, padded_(static_cast<std::uint32_t>(firstPiece + j), p1, p2)) : 1.0;
         });
-        const double from1 = index.centre(p1, firstPiece), step = index.cellWidth(), least = 2 * codec_.coarserCell();
+        const double from1 = index.centre(p1, firstPiece), step = index.cellWidth();
         for (std::size_t j = 0; j < n; ++j) {
           const double to1 = from1 + static_cast<double>(j) * step;
           const double d1 = (to1 - r1) * w1, d2 = (to2[j] - r2) * w2, c = d1 * d1 + d2 * d2;
-          const bool legal = to2[j] - to1 >= least && to2[j] <= piece.maxRatio();
+          const bool legal = codec_.ordered(to1, to2[j]) && to2[j] <= piece.maxRatio();
           best[j] = legal && c < best[j] ? c : best[j];
         }
       }

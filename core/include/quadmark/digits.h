@@ -71,9 +71,6 @@ class PairCodec {
   [[nodiscard]] int bitsPerPiece() const { return 3 * piece_.digitCount(); }
   [[nodiscard]] std::uint32_t pieces() const { return pieces_; }
 
-  /// Width of the wider of the two digit cells.
-  [[nodiscard]] double coarserCell() const { return coarserCell_; }
-
   /// Reads both ratios of a cell, given in any order, each already measured from its nearer end.
   [[nodiscard]] Reading read(double ratioA, double ratioB) const;
 
