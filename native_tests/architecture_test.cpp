@@ -77,7 +77,7 @@ const std::map<std::string, std::set<std::string>>& allowed() {
   static const std::set<std::string> everything = {"result", "mesh",   "random",    "prf",   "exact_math", "base64",
                                                    "key",    "image",  "adjacency", "quad",  "digits",     "payload",
                                                    "cells",  "purity", "verdict",   "embed", "extract",    "metrics",
-                                                   "io",     "report", "quadmark"};
+                                                   "io",     "report", "quadmark", "robust"};
   static const std::map<std::string, std::set<std::string>> rules = {
       {"result", {}},
       {"random", {}},
@@ -99,6 +99,7 @@ const std::map<std::string, std::set<std::string>>& allowed() {
       {"extract", {"adjacency", "quad", "cells", "digits", "key", "payload", "purity", "verdict", "exact_math"}},
       {"embed", {"adjacency", "quad", "cells", "digits", "key", "mesh", "result", "payload", "extract"}},
       {"metrics", {"mesh", "adjacency"}},
+      {"robust", {"result", "mesh", "prf", "random", "exact_math", "verdict", "adjacency"}},
       {"io", {"mesh", "adjacency", "result", "stb_image", "tiny_gltf"}},
       {"report", everything},
       {"quadmark", everything},

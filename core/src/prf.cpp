@@ -94,6 +94,9 @@ Prf::Prf(std::span<const std::uint8_t> secret, std::string_view purpose) {
   k1_ = littleEndian(subKey.data() + 8);
 }
 
+Prf::Prf(const std::array<std::uint8_t, 16>& subKey)
+    : k0_(littleEndian(subKey.data())), k1_(littleEndian(subKey.data() + 8)) {}
+
 std::uint64_t Prf::operator()(std::uint64_t item) const {
   std::uint64_t v0 = k0_ ^ 0x736f6d6570736575u, v1 = k1_ ^ 0x646f72616e646f6du;
   std::uint64_t v2 = k0_ ^ 0x6c7967656e657261u, v3 = k1_ ^ 0x7465646279746573u;

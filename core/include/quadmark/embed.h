@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -35,9 +34,6 @@ struct MarkedMesh {
   Guarantees guarantees;
   WeldedMesh welded;                  ///< the mesh's connectivity, with the marked positions
 };
-
-/// Progress: stage name and share done; return false to cancel (fails with `aborted`).
-using MeshProgress = std::function<bool(const char* stage, double done)>;
 
 /// Marks a mesh.
 /// @param mesh  must validate(); at least one face, a bounding box of positive size.

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "quadmark/result.h"
@@ -42,6 +43,9 @@ struct Mesh {
     return faceOffsets.empty() ? 3 * face + 3 : faceOffsets[face + 1];
   }
 };
+
+/// Progress of long work on a mesh: stage name and share done; return false to cancel (the work fails with `aborted`).
+using MeshProgress = std::function<bool(const char* stage, double done)>;
 
 /// Checks every invariant stated at Mesh. Fails with badMesh and the first offending index. Cost: one pass.
 [[nodiscard]] Status validate(const Mesh& mesh);

@@ -27,6 +27,9 @@ class Prf {
   /// are independent; none gives the secret away.
   Prf(std::span<const std::uint8_t> secret, std::string_view purpose);
 
+  /// Under a sub-key that was derived before.
+  explicit Prf(const std::array<std::uint8_t, 16>& subKey);
+
   [[nodiscard]] std::uint64_t operator()(std::uint64_t item) const;
 
   /// Uniform in [0, n) for n >= 1; the bias of the modulo is below n / 2^64.
