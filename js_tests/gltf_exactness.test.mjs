@@ -2,27 +2,13 @@
 // A marked glTF is the user's own file but for position components and their min / max, checked with nothing of ours:
 // by bytes, by the Khronos validator and by loading it with another library.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
-import { basename, dirname, join } from 'node:path';
+import { basename } from 'node:path';
 import { test } from 'node:test';
-import { NodeIO } from '@gltf-transform/core';
-import validator from 'gltf-validator';
-import { createKey, embed, externalUris, extract } from 'quadmark';
+import { createKey, embed, extract } from 'quadmark';
+import { readModelFiles, realModels } from './support/files.mjs';
 import { assertOnlyPositionsDiffer, assertSameJson, assertTrueBounds, openGltf, splitGlb } from './support/gltf.mjs';
-import { realModels } from './support/files.mjs';
+import { readDocument, validatorErrors } from './support/gltf_readers.mjs';
 import { logo, sculpture } from './support/marks.mjs';
-
-async function errorCount(bytes, resources) {
-  const { issues } = await validator.validateBytes(new Uint8Array(bytes), {
-    maxIssues: 0,
-    externalResourceFunction: async (uri) => {
-      const found = Object.entries(resources).find(([name]) => decodeURIComponent(name) === decodeURIComponent(uri));
-      if (!found) throw new Error(`no ${uri}`);
-      return new Uint8Array(found[1]);
-    },
-  });
-  return issues.numErrors;
-}
 
 /** Buffers of a glTF by index, from the BIN chunk, data URIs or resources. */
 function buffersOf({ json, bin }, resources) {
@@ -44,7 +30,7 @@ async function check(name, model, resources, size, { dataUris = false } = {}) {
   const changed = old.reduce((sum, bytes, i) => sum + assertOnlyPositionsDiffer(before.json, i, bytes, now[i]), 0);
   assert.ok(changed > 0, name);
   assertTrueBounds(after.json, now);
-  assert.equal(await errorCount(marked.bytes, all), await errorCount(model, resources), `${name}: validator errors`);
+  assert.equal(await validatorErrors(marked.bytes, all), await validatorErrors(model, resources), `${name}: validator errors`);
   const read = await extract(marked.bytes, { key, resources: all });
   assert.equal(read.verdict, 'match', name);
   assert.deepEqual(read.image.bits, image.bits, name);
@@ -54,7 +40,7 @@ async function check(name, model, resources, size, { dataUris = false } = {}) {
 test('a GLB', async () => {
   const model = await sculpture('glb');
   const { bytes } = await check('sculpture.glb', model, {}, 24);
-  const document = await new NodeIO().readBinary(bytes);
+  const document = await readDocument(bytes);
   assert.equal(document.getRoot().listMeshes().length, openGltf(model).json.meshes.length);
 });
 
@@ -92,9 +78,7 @@ test('real glTF files', async (t) => {
   const names = ['bunny.glb', 'CesiumMan.glb', 'Duck.glb', 'SheenCloth.glb', 'clothFolds.glb', 'riggedMesh.glb',
     'shaderBall.glb', 'moltenDagger.glb', 'ogre.glb', 'nefertiti.glb', 'Fox/Fox.gltf'];
   for (const { name, path } of realModels(t, names)) {
-    const model = readFileSync(path);
-    const resources = {};
-    for (const uri of await externalUris(model)) resources[uri] = readFileSync(join(dirname(path), decodeURIComponent(uri)));
+    const { model, resources } = await readModelFiles(path);
     try {
       await check(basename(name), model, resources, /bunny|ogre|nefertiti|Sheen|cloth/.test(name) ? 24 : 8);
     } catch (error) {

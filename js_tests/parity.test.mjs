@@ -4,9 +4,9 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
 import { test } from 'node:test';
-import { createKey, embed, externalUris, extract, inspect } from 'quadmark';
+import { createKey, embed, extract, inspect } from 'quadmark';
 import { attack, generate } from 'quadmark/lab';
-import { realModels, repository, run, temporaryFolder } from './support/files.mjs';
+import { readModelFiles, realModels, repository, run, temporaryFolder } from './support/files.mjs';
 import { logo, logoPng } from './support/marks.mjs';
 
 const native = process.env.QUADMARK_NATIVE ?? join(repository, 'build/native/bench/quadmark_native');
@@ -44,9 +44,7 @@ async function compare(t, path, { size = 24, L = 2, attacks = [{ kind: 'crop', a
   const key = await createKey({ width: size, height: size, L });
   writeFileSync(join(folder, 'key.json'), JSON.stringify(key));
   writeFileSync(join(folder, 'logo.png'), logoPng(image));
-  const model = readFileSync(path);
-  const resources = {};
-  for (const uri of await externalUris(model)) resources[uri] = readFileSync(join(dirname(path), decodeURIComponent(uri)));
+  const { model, resources } = await readModelFiles(path);
   const nativeResources = Object.keys(resources).map((uri) => `${uri}=${join(dirname(path), decodeURIComponent(uri))}`);
 
   assert.deepEqual(await inspect(model, { resources }), await runNative('inspect', path, ...nativeResources), `${name}: inspect`);

@@ -1,34 +1,19 @@
 // SPDX-License-Identifier: MIT
 // A key with scrambleOrder: the same surface with the same attributes in another order, checked with nothing of ours.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
-import { basename, dirname, join } from 'node:path';
+import { basename } from 'node:path';
 import { test } from 'node:test';
-import { NodeIO } from '@gltf-transform/core';
-import validator from 'gltf-validator';
-import { createKey, embed, externalUris, extract } from 'quadmark';
-import { openGltf, splitGlb } from './support/gltf.mjs';
-import { realModels } from './support/files.mjs';
+import { createKey, embed, extract } from 'quadmark';
+import { readModelFiles, realModels } from './support/files.mjs';
+import { splitGlb } from './support/gltf.mjs';
+import { readDocument, validatorErrors } from './support/gltf_readers.mjs';
 import { logo, sculpture } from './support/marks.mjs';
 
 const scrambled = (report) => report.warnings.find((text) => /the order of the vertices was scrambled/.test(text));
 
-async function errorCount(bytes, resources) {
-  const { issues } = await validator.validateBytes(new Uint8Array(bytes), {
-    maxIssues: 0,
-    externalResourceFunction: async (uri) => new Uint8Array(resources[decodeURIComponent(uri)]),
-  });
-  return issues.numErrors;
-}
-
 /** Per primitive, the attributes and morph targets that each corner of its triangles reads, as text. */
 async function corners(bytes, resources) {
-  const { json } = openGltf(bytes);
-  const io = new NodeIO();
-  const isGlb = Buffer.from(bytes).toString('latin1', 0, 4) === 'glTF';
-  const document = await (isGlb ? io.readBinary(new Uint8Array(bytes)) : io.readJSON({
-    json, resources: Object.fromEntries(Object.entries(resources).map(([uri, data]) => [uri, new Uint8Array(data)])),
-  }));
+  const document = await readDocument(bytes, resources);
   return document.getRoot().listMeshes().map((mesh) => mesh.listPrimitives().map((primitive) => {
     const sets = [primitive, ...primitive.listTargets()];
     const streams = sets.flatMap((set) => set.listSemantics().map((name) => [name, set.getAttribute(name)]));
@@ -50,7 +35,7 @@ async function check(name, model, resources, size) {
   assert.notDeepEqual([marked.bytes, marked.resources], [plain.bytes, plain.resources], name);
   assert.ok(marked.report.bytesChanged > plain.report.bytesChanged, name);
   assert.deepEqual(await corners(marked.bytes, files), await corners(plain.bytes, plainFiles), name);
-  assert.equal(await errorCount(marked.bytes, files), await errorCount(model, resources), `${name}: validator errors`);
+  assert.equal(await validatorErrors(marked.bytes, files), await validatorErrors(model, resources), `${name}: validator errors`);
   const read = await extract(marked.bytes, { key: scrambling, resources: files });
   assert.equal(read.verdict, 'match', name);
   assert.deepEqual(read.image.bits, image.bits, name);
@@ -80,9 +65,7 @@ test('a PLY: another order for every key, read by both', async () => {
 
 test('real models, skinned ones too, keep every attribute at its corner', async (t) => {
   for (const { name, path } of realModels(t, ['CesiumMan.glb', 'riggedMesh.glb', 'moltenDagger.glb'])) {
-    const model = readFileSync(path);
-    const uris = await externalUris(model);
-    const resources = Object.fromEntries(uris.map((uri) => [uri, readFileSync(join(dirname(path), uri))]));
+    const { model, resources } = await readModelFiles(path);
     await check(basename(name), model, resources, 8);
   }
 });

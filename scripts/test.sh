@@ -104,7 +104,7 @@ echo "Summary"
 printf '  %s\n' "${summary[@]}"
 [ $quick = no ] || echo "  (--quick: no sanitizers)"
 if grep -qsE 'not tested|is not in .*QUADMARK_MODELS' $logs/*.log; then
-  echo "  Note: $(grep -hsE 'real model .* was not tested' $logs/*.log | sort -u | wc -l) parts with real models were not tested: set QUADMARK_MODELS to their folder"
+  echo "  Note: $(grep -hsE 'real models? .* was not tested' $logs/*.log | sort -u | wc -l) parts with real models were not tested: set QUADMARK_MODELS to their folder"
 fi
 if [ $failed = 0 ]; then echo "All tests passed in $((SECONDS / 60)) min $((SECONDS % 60)) s."; else echo "There were failures."; fi
 exit $failed

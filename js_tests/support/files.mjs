@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Temporary folders, real models, and the command line as a user runs it.
 import { spawn } from 'node:child_process';
-import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { externalUris } from 'quadmark';
 
 export const repository = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 export const cliFile = join(repository, 'node/src/cli/main.js');
@@ -29,6 +30,22 @@ export function realModel(t, name) {
 /** The names of `names` that are there, as [{ name, path }]. */
 export function realModels(t, names) {
   return names.map((name) => ({ name, path: realModel(t, name) })).filter(({ path }) => path !== null);
+}
+
+/** All real models of the formats that this version knows, as names; none, after saying so, when there are none. */
+export function allRealModels(t) {
+  const names = existsSync(modelsFolder)
+    ? readdirSync(modelsFolder, { recursive: true }).filter((name) => /\.(glb|gltf|ply|drc)$/.test(name)).sort()
+    : [];
+  if (names.length === 0) t.diagnostic(`real models are not in ${modelsFolder} (set QUADMARK_MODELS): this part was not tested`);
+  return names.map((name) => ({ name, path: join(modelsFolder, name) }));
+}
+
+/** { model, resources } of a model on disk, with the files it refers to. */
+export async function readModelFiles(path) {
+  const model = readFileSync(path);
+  const read = (uri) => readFileSync(join(dirname(path), decodeURIComponent(uri)));
+  return { model, resources: Object.fromEntries((await externalUris(model)).map((uri) => [uri, read(uri)])) };
 }
 
 /** Runs a program to its end: { status, stdout (Buffer), stderr (text), json (parsed lines of stdout) }. */

@@ -2,10 +2,14 @@
 // glTF taken apart with nothing of ours: containers, and what a mark may change in them.
 import assert from 'node:assert/strict';
 
+const asBuffer = (bytes) => Buffer.from(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+
+export const isGlb = (bytes) => asBuffer(bytes).toString('latin1', 0, 4) === 'glTF';
+
 /** { text, json, bin } of a GLB or .gltf file. */
 export function openGltf(bytes) {
-  const file = Buffer.from(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  if (file.toString('latin1', 0, 4) !== 'glTF') return { text: file.toString(), json: JSON.parse(file.toString()), bin: null };
+  const file = asBuffer(bytes);
+  if (!isGlb(file)) return { text: file.toString(), json: JSON.parse(file.toString()), bin: null };
   assert.equal(file.readUInt32LE(8), file.length, 'GLB length field');
   const jsonLength = file.readUInt32LE(12);
   assert.equal(jsonLength % 4, 0, 'JSON chunk is padded');
