@@ -17,13 +17,6 @@ int sextet(char character) {
   return -1;
 }
 
-int hexDigit(char character) {
-  if (character >= '0' && character <= '9') return character - '0';
-  if (character >= 'a' && character <= 'f') return character - 'a' + 10;
-  if (character >= 'A' && character <= 'F') return character - 'A' + 10;
-  return -1;
-}
-
 /// Steps through the payload: one base64 digit at a time, however it is spelled. Blanks are stepped over.
 class Base64Reader {
  public:

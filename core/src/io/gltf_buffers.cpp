@@ -6,13 +6,6 @@
 namespace quadmark::io {
 namespace {
 
-int hexDigit(char character) {
-  if (character >= '0' && character <= '9') return character - '0';
-  if (character >= 'a' && character <= 'f') return character - 'a' + 10;
-  if (character >= 'A' && character <= 'F') return character - 'A' + 10;
-  return -1;
-}
-
 std::string percentDecoded(const std::string& uri) {
   std::string out;
   for (std::size_t at = 0; at < uri.size(); ++at) {

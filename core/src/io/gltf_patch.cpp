@@ -3,6 +3,7 @@
 
 #include "allowed_spans.h"
 #include "data_uri.h"
+#include "gltf_edits.h"
 #include "gltf_model.h"
 #include "number_text.h"
 #include "patch_positions.h"
@@ -12,16 +13,6 @@ namespace {
 
 Error notTheFile(const std::string& what) {
   return Error{ErrorCode::badOption, "patch: these are not the bytes that were read (" + what + ")"};
-}
-
-/// A piece of the JSON text to be replaced, in file positions.
-struct TextEdit {
-  FileSpan span;
-  std::string text;
-};
-
-std::string_view textAt(Bytes file, FileSpan span) {
-  return asText(file.subspan(span.begin, span.end - span.begin));
 }
 
 Status checkArrays(const std::vector<const PositionArray*>& arrays, Bytes buffer) {
@@ -85,8 +76,7 @@ Extent newExtent(std::span<const double> positions, std::uint64_t firstVertex, s
 }
 
 /// Edits for one min or max array. A bound whose true value stays keeps its spelling, even a wrong one.
-Status editBound(Bytes file, FileSpan span, const float (&before)[3], const float (&after)[3],
-                 std::vector<TextEdit>& edits) {
+Status editBound(Bytes file, FileSpan span, const float (&before)[3], const float (&after)[3], JsonEdits& edits) {
   if (span.empty()) return okStatus();
   if (span.end > file.size()) return notTheFile("the JSON text differs");
   const Result<JsonValue> array = parseJson(textAt(file, span));
@@ -97,36 +87,9 @@ Status editBound(Bytes file, FileSpan span, const float (&before)[3], const floa
     const int a = axis++;
     const std::optional<float> declared = parseFloat(element.text());
     if (before[a] == after[a] || !declared || *declared == after[a]) return;
-    const std::size_t begin = span.begin + static_cast<std::size_t>(element.text().data() - textAt(file, span).data());
-    edits.push_back(TextEdit{{begin, begin + element.text().size()}, formatShortest(after[a])});
+    edits.replace(element.text(), formatShortest(after[a]));
   });
   return okStatus();
-}
-
-/// The JSON text with its edits (sorted, disjoint), and the self-check that all else is equal.
-Result<std::string> applyEdits(Bytes file, FileSpan json, const std::vector<TextEdit>& edits,
-                               std::uint64_t& bytesChanged) {
-  std::string out;
-  out.reserve(json.end - json.begin + 16 * edits.size());
-  std::size_t copied = json.begin;
-  for (const TextEdit& edit : edits) {
-    if (edit.span.begin < copied || edit.span.end > json.end) {
-      return Error{ErrorCode::internal, "self-check: text edits overlap"};
-    }
-    out += textAt(file, {copied, edit.span.begin});
-    out += edit.text;
-    copied = edit.span.end;
-    bytesChanged += countReplaced(textAt(file, edit.span), edit.text);
-  }
-  out += textAt(file, {copied, json.end});
-  if (!parseJson(out)) return Error{ErrorCode::internal, "self-check: the edited JSON is broken"};
-  return out;
-}
-
-/// Keeps a GLB's JSON chunk a multiple of 4 bytes long, taking back at most the usual padding first.
-void padJson(std::string& json) {
-  for (int i = 0; i < 3 && json.size() % 4 != 0 && json.back() == ' '; ++i) json.pop_back();
-  while (json.size() % 4 != 0) json += ' ';
 }
 
 }  // namespace
@@ -140,7 +103,8 @@ Result<PatchedFile> GltfModel::patch(std::span<const std::uint8_t> file, const R
 
   // 1. Bounds that change, and buffers outside the file or inside its text.
   PatchedFile patched;
-  std::vector<TextEdit> edits;
+  Result<GltfEdits> edits = GltfEdits::of(file, container_);
+  if (!edits) return notTheFile("the JSON text differs");
   std::vector<std::vector<const PositionArray*>> arraysOf(buffers_.size());
   std::vector<std::vector<const Bounds*>> boundsOf(buffers_.size());
   for (const PositionArray& array : positions_.arrays) arraysOf[array.buffer].push_back(&array);
@@ -154,8 +118,8 @@ Result<PatchedFile> GltfModel::patch(std::span<const std::uint8_t> file, const R
       const Extent old =
           storedExtent(before->bytes, positions_.arrays[bounds->array], bounds->firstVertex, bounds->count);
       const Extent now = newExtent(positions, bounds->firstVertex, bounds->count);
-      if (Status status = editBound(file, bounds->min, old.low, now.low, edits); !status) return status.error();
-      if (Status status = editBound(file, bounds->max, old.high, now.high, edits); !status) return status.error();
+      if (Status status = editBound(file, bounds->min, old.low, now.low, edits->json()); !status) return status.error();
+      if (Status status = editBound(file, bounds->max, old.high, now.high, edits->json()); !status) return status.error();
     }
     if (buffers_[i].source == BufferPlace::Source::bin) continue;
     std::vector<std::uint8_t> after(before->bytes.begin(), before->bytes.end());
@@ -173,38 +137,17 @@ Result<PatchedFile> GltfModel::patch(std::span<const std::uint8_t> file, const R
     const Result<std::vector<std::uint8_t>> decoded = decodeDataUri(*uri, name);
     if (!decoded || *decoded != after)
       return Error{ErrorCode::internal, "self-check: " + name + " decodes differently"};
-    edits.push_back(TextEdit{buffers_[i].uri, std::move(uri).value()});
+    edits->replace(buffers_[i].uri, std::move(uri).value());
   }
 
-  // 2. The JSON text.
-  std::sort(edits.begin(), edits.end(),
-            [](const TextEdit& a, const TextEdit& b) { return a.span.begin < b.span.begin; });
-  const FileSpan jsonSpan{container_.jsonBegin, container_.jsonEnd};
-  const std::size_t oldJsonBytes = jsonSpan.end - jsonSpan.begin;
-  Result<std::string> json = applyEdits(file, jsonSpan, edits, patched.bytesChanged);
-  if (!json) return json.error();
-  if (container_.isGlb && json->size() != oldJsonBytes) padJson(*json);
-
-  // 3. Assembly: everything before the JSON text, the text, everything behind it; lengths and the BIN chunk in place.
-  patched.bytes.reserve(file.size() - oldJsonBytes + json->size());
-  const auto append = [&](std::string_view text) {
-    patched.bytes.insert(patched.bytes.end(), text.begin(), text.end());
-  };
-  append(textAt(file, {0, jsonSpan.begin}));
-  append(*json);
-  append(textAt(file, {jsonSpan.end, file.size()}));
-  if (!container_.isGlb) return patched;
-
-  const std::uint64_t length = load<std::uint32_t>(&file[8]) + std::uint64_t{json->size()} - oldJsonBytes;
-  if (length > 0xffffffffu) return tooLarge("GLB: the file would exceed 4 GiB");
-  store(&patched.bytes[8], static_cast<std::uint32_t>(length));
-  store(&patched.bytes[kGlbHeaderBytes], static_cast<std::uint32_t>(json->size()));
-  patched.bytesChanged +=
-      countReplaced(textAt(file, {0, jsonSpan.begin}), asText(Bytes(patched.bytes).first(jsonSpan.begin)));
+  // 2. Assembly, then the BIN chunk in place.
+  Result<AssembledGltf> assembled = edits->assemble();
+  if (!assembled) return assembled.error();
+  patched.bytes = std::move(assembled->bytes);
+  patched.bytesChanged += assembled->bytesChanged;
   for (std::size_t i = 0; i < buffers_.size(); ++i) {
     if (arraysOf[i].empty() || buffers_[i].source != BufferPlace::Source::bin) continue;
-    const std::size_t binBegin = container_.binBegin - jsonSpan.end + jsonSpan.begin + json->size();
-    const std::span<std::uint8_t> bin(&patched.bytes[binBegin], container_.binEnd - container_.binBegin);
+    const std::span<std::uint8_t> bin(&patched.bytes[assembled->binBegin], container_.binEnd - container_.binBegin);
     const Result<std::uint64_t> changed = writeArrays(arraysOf[i], positions, container_.bin(file), bin);
     if (!changed) return changed.error();
     patched.bytesChanged += *changed;

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "bytes.h"
 #include "number_text.h"
 
 namespace quadmark::io {
@@ -43,13 +44,6 @@ const char* skipValue(const char* at) {
     ++at;
   } while (depth > 0);
   return at;
-}
-
-int hexDigit(char character) {
-  if (character >= '0' && character <= '9') return character - '0';
-  if (character >= 'a' && character <= 'f') return character - 'a' + 10;
-  if (character >= 'A' && character <= 'F') return character - 'A' + 10;
-  return -1;
 }
 
 /// The grammar, one value after the other with an explicit stack of open containers.

@@ -36,6 +36,19 @@ std::string_view withoutPadding(std::string_view text) {
   return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
+/// Everything behind the JSON text. A BIN chunk may have grown without the chunks behind it having changed.
+std::uint64_t countChangedRest(Bytes before, const GltfContainer& a, Bytes after, const GltfContainer& b) {
+  const auto text = [](Bytes file, std::size_t begin, std::size_t end) {
+    return asText(file.subspan(begin, end - begin));
+  };
+  if (!a.hasBin || !b.hasBin) {
+    return countReplaced(asText(before.subspan(a.jsonEnd)), asText(after.subspan(b.jsonEnd)));
+  }
+  return countReplaced(text(before, a.jsonEnd, a.binBegin), text(after, b.jsonEnd, b.binBegin)) +
+         countReplaced(asText(a.bin(before)), asText(b.bin(after))) +
+         countReplaced(asText(before.subspan(a.binEnd)), asText(after.subspan(b.binEnd)));
+}
+
 std::uint64_t countChangedFile(Bytes before, Bytes after) {
   if (isPly(before)) {
     const Result<PlyHeader> header = parsePlyHeader(before);
@@ -46,7 +59,7 @@ std::uint64_t countChangedFile(Bytes before, Bytes after) {
   if (!a.ok() || !b.ok()) return countReplaced(asText(before), asText(after));
   return countReplaced(asText(before.first(a->jsonBegin)), asText(after.first(b->jsonBegin))) +
          countChangedText(withoutPadding(a->json(before)), withoutPadding(b->json(after))) +
-         countReplaced(asText(before.subspan(a->jsonEnd)), asText(after.subspan(b->jsonEnd)));
+         countChangedRest(before, *a, after, *b);
 }
 
 }  // namespace

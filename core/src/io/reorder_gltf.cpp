@@ -6,6 +6,7 @@
 
 #include "allowed_spans.h"
 #include "data_uri.h"
+#include "gltf_edits.h"
 #include "gltf_model.h"
 #include "reorder_order.h"
 
@@ -14,16 +15,6 @@ namespace {
 
 Error notTheFile() {
   return Error{ErrorCode::badOption, "reorder: these are not the bytes that were read"};
-}
-
-/// A piece of the JSON text to be replaced, in file positions.
-struct TextEdit {
-  FileSpan span;
-  std::string text;
-};
-
-std::string_view textAt(Bytes file, FileSpan span) {
-  return asText(file.subspan(span.begin, span.end - span.begin));
 }
 
 std::uint32_t loadIndex(const std::uint8_t* bytes, std::uint32_t width) {
@@ -46,14 +37,13 @@ struct IndexExtent {
 };
 
 /// Replaces a bound that was true before and is no longer.
-void editBound(Bytes file, FileSpan span, std::uint32_t before, std::uint32_t after, std::vector<TextEdit>& edits) {
+void editBound(Bytes file, FileSpan span, std::uint32_t before, std::uint32_t after, JsonEdits& edits) {
   if (before == after || span.end > file.size()) return;
   const Result<JsonValue> array = parseJson(textAt(file, span));
   if (!array.ok() || array->elementCount() != 1) return;
   array->forEachElement([&](JsonValue bound) {
     if (bound.asUnsigned() != std::uint64_t{before}) return;  // wrong in the original: not ours to mend
-    const std::size_t begin = span.begin + static_cast<std::size_t>(bound.text().data() - textAt(file, span).data());
-    edits.push_back(TextEdit{{begin, begin + bound.text().size()}, std::to_string(after)});
+    edits.replace(bound.text(), std::to_string(after));
   });
 }
 
@@ -73,8 +63,8 @@ struct ArrayOrder {
 /// The bytes of the buffers that change, and the edits of the text that follow.
 class Mover {
  public:
-  Mover(const GltfReorderPlan& plan, Bytes file)
-      : plan_(plan), file_(file), after_(plan.buffers.size()), allowed_(plan.buffers.size()) {}
+  Mover(const GltfReorderPlan& plan, Bytes file, JsonEdits& edits)
+      : plan_(plan), file_(file), edits_(edits), after_(plan.buffers.size()), allowed_(plan.buffers.size()) {}
 
   void move(const ReorderGroup& group, const ArrayOrder& order) {
     for (const ElementRun& run : group.attributes) moveElements(run, order);
@@ -94,7 +84,6 @@ class Mover {
 
   /// A buffer's new bytes, empty where nothing changed.
   [[nodiscard]] std::vector<std::uint8_t>& after(std::size_t buffer) { return after_[buffer]; }
-  [[nodiscard]] std::vector<TextEdit>& edits() { return edits_; }
 
  private:
   std::uint8_t* begin(const ElementRun& run) {
@@ -131,31 +120,10 @@ class Mover {
 
   const GltfReorderPlan& plan_;
   Bytes file_;
+  JsonEdits& edits_;
   std::vector<std::vector<std::uint8_t>> after_;
   std::vector<AllowedSpans> allowed_;
-  std::vector<TextEdit> edits_;
 };
-
-/// The JSON text with its edits; in a GLB as long as before where padding allows, else padded to 4 bytes.
-Result<std::string> editedJson(Bytes file, const GltfContainer& container, std::vector<TextEdit> edits) {
-  std::sort(edits.begin(), edits.end(),
-            [](const TextEdit& a, const TextEdit& b) { return a.span.begin < b.span.begin; });
-  std::string json;
-  std::size_t copied = container.jsonBegin;
-  for (const TextEdit& edit : edits) {
-    if (edit.span.begin < copied || edit.span.end > container.jsonEnd) {
-      return Error{ErrorCode::internal, "self-check: text edits overlap"};
-    }
-    json += textAt(file, {copied, edit.span.begin});
-    json += edit.text;
-    copied = edit.span.end;
-  }
-  json += textAt(file, {copied, container.jsonEnd});
-  if (!container.isGlb || json.size() == container.jsonEnd - container.jsonBegin) return json;
-  for (int i = 0; i < 3 && json.size() % 4 != 0 && json.back() == ' '; ++i) json.pop_back();
-  while (json.size() % 4 != 0) json += ' ';
-  return json;
-}
 
 }  // namespace
 
@@ -200,7 +168,9 @@ Result<PatchedFile> GltfModel::reorder(std::span<const std::uint8_t> file, const
   if (!newOf) return newOf.error();
 
   // 2. The buffers.
-  Mover mover(*plan, file);
+  Result<GltfEdits> edits = GltfEdits::of(file, container_);
+  if (!edits) return notTheFile();
+  Mover mover(*plan, file, edits->json());
   for (std::size_t i = 0; i < plan->groups.size(); ++i) {
     if (!plan->groups[i].obstacle.empty()) continue;
     const auto first = static_cast<std::uint32_t>(positions_.arrays[i].firstVertex);
@@ -212,7 +182,6 @@ Result<PatchedFile> GltfModel::reorder(std::span<const std::uint8_t> file, const
 
   // 3. Where they belong.
   PatchedFile reordered;
-  std::vector<TextEdit> edits = mover.edits();
   std::size_t bin = plan->buffers.size();  // the one that is the BIN chunk, if it changes
   for (std::size_t i = 0; i < plan->buffers.size(); ++i) {
     if (mover.after(i).empty()) continue;
@@ -222,28 +191,14 @@ Result<PatchedFile> GltfModel::reorder(std::span<const std::uint8_t> file, const
     if (place.source != BufferPlace::Source::dataUri) continue;
     Result<std::string> uri = recodeDataUri(textAt(file, place.uri), mover.after(i), "buffer " + std::to_string(i));
     if (!uri) return uri.error();
-    edits.push_back(TextEdit{place.uri, std::move(uri).value()});
+    edits->replace(place.uri, std::move(uri).value());
   }
-  const Result<std::string> json = editedJson(file, container_, std::move(edits));
-  if (!json) return json.error();
-  const std::size_t oldJsonBytes = container_.jsonEnd - container_.jsonBegin;
-  reordered.bytes.reserve(file.size() - oldJsonBytes + json->size());
-  const auto append = [&](std::string_view text) {
-    reordered.bytes.insert(reordered.bytes.end(), text.begin(), text.end());
-  };
-  append(textAt(file, {0, container_.jsonBegin}));
-  append(*json);
-  append(textAt(file, {container_.jsonEnd, file.size()}));
-  if (container_.isGlb) {
-    const std::uint64_t length = load<std::uint32_t>(&file[8]) + std::uint64_t{json->size()} - oldJsonBytes;
-    if (length > 0xffffffffu) return tooLarge("GLB: the file would exceed 4 GiB");
-    store(&reordered.bytes[8], static_cast<std::uint32_t>(length));
-    store(&reordered.bytes[kGlbHeaderBytes], static_cast<std::uint32_t>(json->size()));
-  }
+  Result<AssembledGltf> assembled = edits->assemble();
+  if (!assembled) return assembled.error();
+  reordered.bytes = std::move(assembled->bytes);
   if (bin < plan->buffers.size()) {
-    const std::size_t binBegin = container_.binBegin - oldJsonBytes + json->size();
     std::copy(mover.after(bin).begin(), mover.after(bin).end(),
-              reordered.bytes.begin() + static_cast<std::ptrdiff_t>(binBegin));
+              reordered.bytes.begin() + static_cast<std::ptrdiff_t>(assembled->binBegin));
   }
 
   // 4. It must read back, with the resources that did not change as they are.
