@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-#include "json.hpp"
+#include <nlohmann/json.hpp>
 #include "quadmark/lab/attacks.h"
 #include "quadmark/lab/generate.h"
 #include "quadmark/quadmark.h"

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "json.hpp"
+#include <nlohmann/json.hpp>
 #include "quadmark/quadmark.h"
 
 namespace {

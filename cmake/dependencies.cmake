@@ -16,11 +16,9 @@ function(quadmark_copy_header header destination)
   endif()
 endfunction()
 
-quadmark_copy_header(tiny_gltf.h tiny_gltf.h)
 quadmark_copy_header(nlohmann nlohmann)
 quadmark_copy_header(stb/stb_image.h stb_image.h)
 quadmark_copy_header(stb/stb_image_write.h stb_image_write.h)
-configure_file(${third_party}/nlohmann/json.hpp ${third_party}/json.hpp COPYONLY)  # tinygltf includes it by this name
 
 add_library(quadmark_third_party INTERFACE)
 target_include_directories(quadmark_third_party SYSTEM INTERFACE ${third_party})

@@ -100,7 +100,7 @@ const std::map<std::string, std::set<std::string>>& allowed() {
       {"embed", {"adjacency", "quad", "cells", "digits", "key", "mesh", "result", "payload", "extract"}},
       {"metrics", {"mesh", "adjacency"}},
       {"robust", {"result", "mesh", "prf", "random", "exact_math", "verdict", "adjacency"}},
-      {"io", {"mesh", "adjacency", "result", "stb_image", "tiny_gltf"}},
+      {"io", {"mesh", "adjacency", "result"}},
       {"report", everything},
       {"quadmark", everything},
   };

@@ -2,7 +2,6 @@
 #include "gltf_document.h"
 
 #include "gltf_fields.h"
-#include "gltf_normalise.h"
 #include "gltf_sections.h"
 
 namespace quadmark::io {
@@ -303,7 +302,6 @@ Result<GltfDocument> readGltfDocument(std::string_view json, std::size_t jsonBeg
   if (Status status = readNodes(sections, document); !status) return status.error();
   if (Status status = readAccessors(sections, document); !status) return status.error();
   if (Status status = readViews(sections, document); !status) return status.error();
-  if (Status status = loadThroughTinygltf(document); !status) return status.error();
   for (const GltfPrimitive& primitive : document.primitives) {
     if (!primitive.hasTriangles()) continue;
     if (Status status = checkTriangles(document, primitive); !status) return status.error();
