@@ -11,13 +11,17 @@ export const noChromium = existsSync(executablePath)
   ? false
   : `${executablePath} does not exist: run scripts/setup.sh or set QUADMARK_CHROMIUM`;
 
-/** A browser context that closes when the test `t` ends. */
-export async function openChromium(t) {
+/**
+ * A browser context that closes when the test `t` ends.
+ * @param webgl  whether pages may draw with WebGL, by software
+ */
+export async function openChromium(t, { webgl = false } = {}) {
   const context = await chromium.launchPersistentContext(temporaryFolder(t), {
     executablePath,
     headless: true,
-    args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--disable-dev-shm-usage', '--no-first-run',
-      '--disable-background-networking', '--disable-component-update', '--disable-sync'],
+    args: ['--headless', '--no-sandbox', '--disable-quic', '--disable-dev-shm-usage', '--no-first-run',
+      '--disable-background-networking', '--disable-component-update', '--disable-sync',
+      ...(webgl ? ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-gpu'])],
   });
   t.after(() => context.close());
   return context;

@@ -41,11 +41,19 @@ export function allRealModels(t) {
   return names.map((name) => ({ name, path: join(modelsFolder, name) }));
 }
 
-/** { model, resources } of a model on disk, with the files it refers to. */
+/** { model, resources } of a model on disk, with the buffers it refers to. */
 export async function readModelFiles(path) {
   const model = readFileSync(path);
   const read = (uri) => readFileSync(join(dirname(path), decodeURIComponent(uri)));
   return { model, resources: Object.fromEntries((await externalUris(model)).map((uri) => [uri, read(uri)])) };
+}
+
+/** { uri: bytes } of the pictures that a .gltf on disk refers to; none for other formats. */
+export function readImageFiles(path) {
+  if (!path.endsWith('.gltf')) return {};
+  const { images = [] } = JSON.parse(readFileSync(path, 'utf8'));
+  const uris = images.map(({ uri }) => uri).filter((uri) => uri !== undefined && !uri.startsWith('data:'));
+  return Object.fromEntries(uris.map((uri) => [uri, readFileSync(join(dirname(path), decodeURIComponent(uri)))]));
 }
 
 /** Runs a program to its end: { status, stdout (Buffer), stderr (text), json (parsed lines of stdout) }. */

@@ -27,7 +27,8 @@ export function splitGlb(glb, uri) {
   return { gltf: Buffer.from(JSON.stringify(json, null, 1)), bin: Buffer.from(bin) };
 }
 
-const positionAccessors = (json) => new Set(json.meshes.flatMap((mesh) => mesh.primitives)
+/** Indices of the accessors that hold positions of triangles. */
+export const positionAccessors = (json) => new Set(json.meshes.flatMap((mesh) => mesh.primitives)
   .filter((primitive) => (primitive.mode ?? 4) >= 4).map((primitive) => primitive.attributes.POSITION));
 
 /** Fails unless the two JSON texts are one but for min and max of POSITION accessors. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Watermark images and generated models for the tests.
+import { createKey } from 'quadmark';
 import { generate } from 'quadmark/lab';
 import { writePng } from './png.mjs';
 
@@ -20,6 +21,10 @@ export function logo(width = 24, height = width) {
 }
 
 export const logoPng = (image) => writePng(image.width, image.height, Array.from(image.bits, (bit) => (bit ? 0 : 255)));
+
+/** A key for a square logo that is the same in every run, for tests of how much changes. */
+export const fixedKey = async (size, options = {}) =>
+  ({ ...(await createKey({ width: size, height: size, ...options })), secret: Buffer.alloc(32, 'for tests').toString('base64') });
 
 /** The bits of `image` as base64, row-major, most significant bit first: what the reports hold. */
 export function packBits({ bits }) {
