@@ -50,8 +50,7 @@ std::vector<Include> includesUnder(const std::string& root) {
   std::vector<Include> out;
   for (const auto& entry : fs::recursive_directory_iterator(std::string(QUADMARK_SOURCE_DIR) + "/" + root)) {
     if (!entry.is_regular_file()) continue;
-    const std::string file =
-        fs::relative(entry.path(), std::string(QUADMARK_SOURCE_DIR) + "/" + root).generic_string();
+    const std::string file = fs::relative(entry.path(), std::string(QUADMARK_SOURCE_DIR) + "/" + root).generic_string();
     std::ifstream stream(entry.path());
     for (std::string line; std::getline(stream, line);) {
       if (line.rfind("#include \"", 0) != 0) continue;
@@ -74,10 +73,10 @@ std::vector<Include> coreIncludes() {
 
 // What each module may include besides itself, in the order of the pipeline: nothing includes what comes later.
 const std::map<std::string, std::set<std::string>>& allowed() {
-  static const std::set<std::string> everything = {"result", "mesh",   "random",    "prf",   "exact_math", "base64",
-                                                   "key",    "image",  "adjacency", "quad",  "digits",     "payload",
-                                                   "cells",  "purity", "verdict",   "embed", "extract",    "metrics",
-                                                   "io",     "report", "quadmark", "robust"};
+  static const std::set<std::string> everything = {"result", "mesh",   "random",    "prf",    "exact_math", "base64",
+                                                   "key",    "image",  "adjacency", "quad",   "digits",     "payload",
+                                                   "cells",  "purity", "verdict",   "embed",  "extract",    "metrics",
+                                                   "io",     "report", "quadmark",  "robust", "vec3",       "trig"};
   static const std::map<std::string, std::set<std::string>> rules = {
       {"result", {}},
       {"random", {}},
@@ -99,7 +98,10 @@ const std::map<std::string, std::set<std::string>>& allowed() {
       {"extract", {"adjacency", "quad", "cells", "digits", "key", "payload", "purity", "verdict", "exact_math"}},
       {"embed", {"adjacency", "quad", "cells", "digits", "key", "mesh", "result", "payload", "extract"}},
       {"metrics", {"mesh", "adjacency"}},
-      {"robust", {"result", "mesh", "prf", "random", "exact_math", "verdict", "adjacency"}},
+      {"vec3", {}},
+      {"trig", {}},
+      {"robust",
+       {"result", "mesh", "prf", "random", "exact_math", "verdict", "adjacency", "vec3", "trig", "key", "image"}},
       {"io", {"mesh", "adjacency", "result"}},
       {"report", everything},
       {"quadmark", everything},

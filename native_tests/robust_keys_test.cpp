@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "quadmark/robust/keys.h"
-
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "quadmark/prf.h"
+#include "quadmark/robust/keys.h"
 
 namespace quadmark::robust {
 namespace {
@@ -29,7 +28,7 @@ std::string hex(const SubKey& key) {
 
 std::vector<std::string> allOf(const SchemeKeys& keys) {
   const RobustKeys& g = keys.geometry;
-  return {hex(g.select), hex(g.dither),   hex(g.constellation), hex(g.assignment),
+  return {hex(g.select), hex(g.dither), hex(g.constellation), hex(g.assignment),
           hex(g.share),  hex(keys.mac), hex(keys.whitening)};
 }
 
@@ -37,18 +36,18 @@ std::vector<std::string> allOf(const SchemeKeys& keys) {
 TEST(RobustKeys, AreHkdfOfSecretSaltAndPurpose) {
   const auto plain = deriveKeys(countingSecret(), "");
   ASSERT_TRUE(plain);
-  EXPECT_EQ(allOf(*plain), (std::vector<std::string>{
-                               "e0f9cfb31d2caf45b4ca3ce094cc8468", "f153ee34af75624a7a62252852310ccc",
-                               "df2db57ec6fcd7bcf0d30aba05c57e5b", "295a576b25eb83fdfd334f207fc8f566",
-                               "97a9bce1905b882f696a2260d7fba4c7", "1c55d58bb0901af0ae64468297eafa12",
-                               "a180c3917d83c8d082ab706ad57af2d7"}));
+  EXPECT_EQ(allOf(*plain),
+            (std::vector<std::string>{"e0f9cfb31d2caf45b4ca3ce094cc8468", "f153ee34af75624a7a62252852310ccc",
+                                      "df2db57ec6fcd7bcf0d30aba05c57e5b", "295a576b25eb83fdfd334f207fc8f566",
+                                      "97a9bce1905b882f696a2260d7fba4c7", "1c55d58bb0901af0ae64468297eafa12",
+                                      "a180c3917d83c8d082ab706ad57af2d7"}));
   const auto salted = deriveKeys(countingSecret(), "asset 7");
   ASSERT_TRUE(salted);
-  EXPECT_EQ(allOf(*salted), (std::vector<std::string>{
-                                "dd6790e9956b5a964b2166987ddfa059", "0876af66d38d24909b991ea462160546",
-                                "f2623aca5117a672560084dadcc7993c", "b02004c536b47e0c1e8f52ce669f1282",
-                                "a2ade97e8bd6f534f196f30724d32fee", "d3663160a8d2502d7658f1347267faab",
-                                "7150a7d57999a946b9e027e8d1cd8d64"}));
+  EXPECT_EQ(allOf(*salted),
+            (std::vector<std::string>{"dd6790e9956b5a964b2166987ddfa059", "0876af66d38d24909b991ea462160546",
+                                      "f2623aca5117a672560084dadcc7993c", "b02004c536b47e0c1e8f52ce669f1282",
+                                      "a2ade97e8bd6f534f196f30724d32fee", "d3663160a8d2502d7658f1347267faab",
+                                      "7150a7d57999a946b9e027e8d1cd8d64"}));
 }
 
 TEST(RobustKeys, GiveNothingAwayAboutOtherPurposesOrSalts) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The affine attacks of section 6.2.1 of the paper.
 #include "quadmark/lab/attacks.h"
-#include "vec3.h"
+#include "quadmark/vec3.h"
 
 namespace quadmark::lab {
 namespace {

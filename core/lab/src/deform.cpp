@@ -3,7 +3,7 @@
 
 #include "mesh_tools.h"
 #include "quadmark/random.h"
-#include "trig.h"
+#include "quadmark/trig.h"
 
 namespace quadmark::lab {
 namespace {

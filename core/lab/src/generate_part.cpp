@@ -5,7 +5,7 @@
 #include "mesh_tools.h"
 #include "quadmark/lab/generate.h"
 #include "quadmark/random.h"
-#include "trig.h"
+#include "quadmark/trig.h"
 
 namespace quadmark::lab {
 namespace {

@@ -5,8 +5,8 @@
 #include "mesh_tools.h"
 #include "noise_field.h"
 #include "quadmark/lab/generate.h"
+#include "quadmark/trig.h"
 #include "torus_surface.h"
-#include "trig.h"
 
 namespace quadmark::lab {
 namespace {

@@ -5,7 +5,7 @@
 #include "noise_field.h"
 #include "quadmark/lab/generate.h"
 #include "quadmark/random.h"
-#include "trig.h"
+#include "quadmark/trig.h"
 
 namespace quadmark::lab {
 namespace {

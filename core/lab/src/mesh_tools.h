@@ -8,7 +8,7 @@
 #include "quadmark/adjacency.h"
 #include "quadmark/lab/attacks.h"
 #include "quadmark/mesh.h"
-#include "vec3.h"
+#include "quadmark/vec3.h"
 
 namespace quadmark::lab {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "vec3.h"
+#include "quadmark/vec3.h"
 
 namespace quadmark::lab {
 

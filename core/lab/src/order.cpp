@@ -3,7 +3,7 @@
 
 #include "quadmark/lab/attacks.h"
 #include "quadmark/random.h"
-#include "vec3.h"
+#include "quadmark/vec3.h"
 
 namespace quadmark::lab {
 

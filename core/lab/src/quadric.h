@@ -3,7 +3,7 @@
 // 1997).
 #pragma once
 
-#include "vec3.h"
+#include "quadmark/vec3.h"
 
 namespace quadmark::lab {
 

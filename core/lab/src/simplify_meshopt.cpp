@@ -5,15 +5,15 @@
 
 namespace quadmark::lab {
 
-Mesh simplifyMeshopt(const Mesh& mesh, double keep, VertexOrigin* origin) {
+Mesh simplifyMeshopt(const Mesh& mesh, double keep, VertexOrigin* origin, double errorLimit) {
   const std::vector<std::uint32_t> triangles = fannedTriangles(mesh);
   const std::size_t target = 3 * shareOf(keep, triangles.size() / 3);
   std::vector<std::uint32_t> kept = triangles;
   if (target < triangles.size()) {
     const std::vector<float> positions(mesh.positions.begin(), mesh.positions.end());
-    // The error limit is relative to the extent: 1 gives every collapse free way, so that the target decides.
     const std::size_t corners = meshopt_simplify(kept.data(), triangles.data(), triangles.size(), positions.data(),
-                                                 mesh.vertexCount(), 3 * sizeof(float), target, 1.0f, 0, nullptr);
+                                                 mesh.vertexCount(), 3 * sizeof(float), target,
+                                                 static_cast<float>(errorLimit), 0, nullptr);
     kept.resize(corners);
   }
   Mesh simplified;

@@ -9,7 +9,7 @@
 
 #include "quadmark/mesh.h"
 #include "quadmark/random.h"
-#include "vec3.h"
+#include "quadmark/vec3.h"
 
 namespace quadmark::lab {
 

@@ -59,10 +59,12 @@ enum class Grid : std::uint8_t { common, perAxis };
 /// lambda).
 [[nodiscard]] Mesh smoothTaubin(const Mesh& mesh, double lambda, int iterations);
 
-/// meshoptimizer's simplifier without an error limit: keeps about `keep` (0..1) of the triangles (polygons are fanned
-/// first); survivors keep their exact positions. It may stop early where topology forbids going on. Vertices that no
+/// meshoptimizer's simplifier: keeps about `keep` (0..1) of the triangles (polygons are fanned first), or more where the
+/// next collapse would exceed `errorLimit` (relative to the extent; 1 gives every collapse free way). Survivors keep
+/// their exact positions. It may stop early where topology forbids going on. Vertices that no
 /// triangle uses any more are dropped. It works in float32 whatever the precision.
-[[nodiscard]] Mesh simplifyMeshopt(const Mesh& mesh, double keep, VertexOrigin* origin = nullptr);
+[[nodiscard]] Mesh simplifyMeshopt(const Mesh& mesh, double keep, VertexOrigin* origin = nullptr,
+                                   double errorLimit = 1);
 /// Quadric edge collapse with optimal placement (Garland and Heckbert 1997) down to `keep` (0..1) of the welded
 /// vertices. Twins become one vertex, polygons are fanned, borders are held by constraint planes, and a collapse that
 /// would turn a face over or change the topology is refused, so that it too may stop early.

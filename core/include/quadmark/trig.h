@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace quadmark::lab {
+namespace quadmark {
 
 struct SinCos {
   double sin = 0, cos = 1;
@@ -38,4 +38,4 @@ inline SinCos sinCos(double radians) {
   return sinCosTurns(radians * 0.159154943091895335769);
 }
 
-}  // namespace quadmark::lab
+}  // namespace quadmark

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Three doubles with the few operations attacks and generators need. Plain arithmetic in a fixed order, so that native
+// Three doubles with the few operations that geometry here needs. Plain arithmetic in a fixed order, so that native
 // and wasm builds round alike (Eigen's reductions do not promise an order).
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace quadmark::lab {
+namespace quadmark {
 
 struct Vec3 {
   double x = 0, y = 0, z = 0;
@@ -51,4 +51,4 @@ inline void append(std::vector<double>& positions, const Vec3& p) {
   for (double x : {p.x, p.y, p.z}) positions.push_back(x);
 }
 
-}  // namespace quadmark::lab
+}  // namespace quadmark

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Candidates of each good fine cell, cheapest displacement first, without storing all of them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "constellation.h"
+
+namespace quadmark::robust {
+
+/// A diamond that may become a cell.
+struct Candidate {
+  std::uint32_t diamond;
+  float edgeRatio, spanRatio;    ///< folded
+  float edgeLength, spanLength;  ///< file units
+  float gap;                     ///< file units
+};
+
+/// One entry of a good cell's queue.
+struct QueueEntry {
+  float cost;               ///< displacement relative to the shorter diagonal
+  std::uint32_t candidate;  ///< index into the candidates given
+};
+
+/// Queues of the good cells for one generation: near candidates (within kNear fine cells) by cost, then far ones.
+/// Of the many pairs of candidate and good cell only the cheapest, some `wanted` per good cell, are kept.
+class DiamondQueues {
+ public:
+  static constexpr int kNear = 8, kFar = 24;
+
+  struct Range {
+    std::uint32_t begin = 0, far = 0, end = 0;  ///< of entries(): near ones, then far ones
+  };
+
+  /// @param goodCells  fine cells (edge cell * side + span cell).
+  DiamondQueues(const std::vector<Candidate>& candidates, const DeltaClass& shape,
+                const std::vector<std::uint32_t>& goodCells, std::uint32_t wanted);
+
+  [[nodiscard]] const Range& range(std::size_t goodCell) const { return ranges_[goodCell]; }
+  [[nodiscard]] const QueueEntry& entry(std::uint32_t i) const { return entries_[i]; }
+
+ private:
+  std::vector<Range> ranges_;
+  std::vector<QueueEntry> entries_;
+};
+
+}  // namespace quadmark::robust

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Cells of layer B: the two triangles at an interior edge, seen as a quadrilateral with two diagonals.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "surface.h"
+
+namespace quadmark::robust {
+
+/// Edge b-d with the opposite corners a and c.
+struct Diamond {
+  std::uint32_t a = 0, b = 0, c = 0, d = 0;
+};
+
+/// All diamonds: interior edges of two triangles and, of quads, both diagonals, since one of them becomes an edge when
+/// a tool cuts the quad. Edges of other polygons have none. Ordered by lower, then higher vertex of b and d within each
+/// kind. Cost: linear.
+[[nodiscard]] std::vector<Diamond> collectDiamonds(const Surface& surface);
+
+/// Where the diagonals come closest, and how vertex noise moves that.
+struct DiamondShape {
+  double alongEdge = 0;  ///< ratio on b-d, from b
+  double alongSpan = 0;  ///< ratio on a-c, from a
+  Vec3 gap;              ///< from the point on b-d to that on a-c
+  double gapLength = 0;
+  double edgeLength = 0, spanLength = 0;
+  double gapGain = 0;   ///< standard deviation of the gap per unit of vertex noise
+  double edgeGain = 0;  ///< the same of alongEdge, per file unit
+  double spanGain = 0;  ///< of alongSpan
+};
+
+/// @return false for diamonds that are not convex (a ratio outside 0..1) or nearly a line.
+[[nodiscard]] bool diamondShape(const std::vector<double>& positions, const Diamond& diamond, DiamondShape& out);
+
+/// The smaller part of a diagonal: 0..0.5, whichever end it is counted from.
+inline double folded(double ratio) {
+  return ratio < 0.5 ? ratio : 1 - ratio;
+}
+
+}  // namespace quadmark::robust

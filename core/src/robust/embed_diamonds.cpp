@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "embed_diamonds.h"
+
+#include <algorithm>
+#include <array>
+
+#include "diamond_queues.h"
+
+namespace quadmark::robust {
+namespace {
+
+// Faces around each welded vertex.
+struct FacesOf {
+  std::vector<std::uint32_t> offsets, faces;
+  explicit FacesOf(const Surface& surface) : offsets(surface.vertexCount() + 1, 0), faces(surface.corners.size()) {
+    for (const std::uint32_t v : surface.corners) ++offsets[v + 1];
+    for (std::size_t v = 1; v < offsets.size(); ++v) offsets[v] += offsets[v - 1];
+    std::vector<std::uint32_t> cursor(offsets.begin(), offsets.end() - 1);
+    for (std::uint32_t f = 0; f < surface.faceCount(); ++f)
+      for (const std::uint32_t v : surface.face(f)) faces[cursor[v]++] = f;
+  }
+};
+
+// Twice the area vector of a face (Newell's, for polygons).
+Vec3 areaVector(std::span<const std::uint32_t> face, const std::vector<double>& positions) {
+  const Vec3 origin = at(positions, face[0]);
+  Vec3 sum;
+  for (std::size_t k = 1; k + 1 < face.size(); ++k)
+    sum += cross(at(positions, face[k]) - origin, at(positions, face[k + 1]) - origin);
+  return sum;
+}
+
+std::vector<std::uint8_t> sharpVertices(const std::vector<double>& positions, const std::vector<Diamond>& diamonds,
+                                        double cosine) {
+  std::vector<std::uint8_t> sharp(positions.size() / 3, 0);
+  for (const Diamond& q : diamonds) {
+    const Vec3 a = at(positions, q.a), b = at(positions, q.b), c = at(positions, q.c), d = at(positions, q.d);
+    const Vec3 left = cross(b - a, d - a), right = cross(d - c, b - c);
+    if (dot(left, right) < cosine * length(left) * length(right)) sharp[q.b] = sharp[q.d] = 1;
+  }
+  return sharp;
+}
+
+class Writer {
+ public:
+  Writer(const Surface& surface, const std::vector<Diamond>& diamonds, const DiamondLimits& limits,
+         std::vector<std::uint8_t>& occupied, std::vector<double>& positions)
+      : surface_(surface),
+        diamonds_(diamonds),
+        limits_(limits),
+        occupied_(occupied),
+        positions_(positions),
+        facesOf_(surface) {}
+
+  [[nodiscard]] bool free(const Diamond& q) const {
+    return occupied_[q.a] == 0 && occupied_[q.b] == 0 && occupied_[q.c] == 0 && occupied_[q.d] == 0;
+  }
+
+  // Moves the four vertices by the least total displacement that brings both diagonals to meet at the fine cell's
+  // centre. False, with everything as it was, when a face turns or a vertex moves too far.
+  bool write(const Diamond& q, double edgeRatio, double spanRatio) {
+    const std::array<std::uint32_t, 4> vertex = {q.a, q.b, q.c, q.d};
+    std::array<Vec3, 4> old;
+    for (int k = 0; k < 4; ++k) old[k] = at(positions_, vertex[k]);
+    const double weight[4] = {1 - spanRatio, -(1 - edgeRatio), spanRatio, -edgeRatio};
+    Vec3 gap;
+    double norm = 0;
+    for (int k = 0; k < 4; ++k) gap += weight[k] * old[k], norm += weight[k] * weight[k];
+    double farthest = 0;
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 move = (-weight[k] / norm) * gap;
+      put(positions_, vertex[k], old[k] + move);
+      farthest = std::max(farthest, length(move));
+    }
+    bool bad = limits_.maxMove > 0 && farthest > limits_.maxMove;
+    for (int k = 0; k < 4 && !bad; ++k)
+      for (std::uint32_t i = facesOf_.offsets[vertex[k]]; i < facesOf_.offsets[vertex[k] + 1] && !bad; ++i) {
+        const auto face = surface_.face(facesOf_.faces[i]);
+        const Vec3 before = areaVector(face, surface_.welded.positions), after = areaVector(face, positions_);
+        bad = dot(before, after) < limits_.turnCosine * length(before) * length(after);
+      }
+    if (bad) {
+      for (int k = 0; k < 4; ++k) put(positions_, vertex[k], old[k]);
+      return false;
+    }
+    for (const std::uint32_t v : vertex) occupied_[v] = 1;
+    return true;
+  }
+
+ private:
+  const Surface& surface_;
+  const std::vector<Diamond>& diamonds_;
+  const DiamondLimits& limits_;
+  std::vector<std::uint8_t>& occupied_;
+  std::vector<double>& positions_;
+  FacesOf facesOf_;
+};
+
+std::vector<Candidate> findCandidates(const std::vector<double>& positions, const std::vector<Diamond>& diamonds,
+                                      const DeltaClass& shape, const DiamondLimits& limits, const Writer& writer) {
+  const std::vector<std::uint8_t> sharp = sharpVertices(positions, diamonds, limits.sharpCosine);
+  std::vector<Candidate> out;
+  DiamondShape s;
+  for (std::uint32_t i = 0; i < diamonds.size(); ++i) {
+    const Diamond& q = diamonds[i];
+    if (!writer.free(q) || (sharp[q.a] | sharp[q.b] | sharp[q.c] | sharp[q.d]) != 0) continue;
+    if (!diamondShape(positions, q, s) || s.gapLength > limits.mostGap * std::min(s.edgeLength, s.spanLength)) continue;
+    const double edge = folded(s.alongEdge), span = folded(s.alongSpan);
+    if (edge < kLeastRatio || span < kLeastRatio || fineCell(edge, shape) >= shape.side ||
+        fineCell(span, shape) >= shape.side)
+      continue;
+    out.push_back({i, static_cast<float>(edge), static_cast<float>(span), static_cast<float>(s.edgeLength),
+                   static_cast<float>(s.spanLength), static_cast<float>(s.gapLength)});
+  }
+  return out;
+}
+
+}  // namespace
+
+DiamondEmbedding embedDiamonds(const Surface& surface, const std::vector<Diamond>& diamonds,
+                               const Constellation& constellation, const CodedPayload& payload,
+                               const DiamondLimits& limits, std::vector<std::uint8_t>& occupied,
+                               std::vector<double>& positions) {
+  DiamondEmbedding out;
+  const DeltaClass& shape = constellation.shape();
+  Writer writer(surface, diamonds, limits, occupied, positions);
+  std::vector<Candidate> candidates = findCandidates(positions, diamonds, shape, limits, writer);
+
+  // 1. The good fine cells: those whose meaning is what the payload says.
+  const std::vector<std::uint32_t> goodSymbols = constellation.goodSymbols(payload);
+  std::vector<std::uint32_t> goodCells;
+  for (std::uint32_t e = 0; e < shape.side; ++e)
+    for (std::uint32_t s = 0; s < shape.side; ++s) {
+      const std::uint32_t meaning = constellation.meaning(e, s);
+      if (meaning == Constellation::kNone) continue;
+      if (goodSymbols[meaning / constellation.symbols()] == meaning % constellation.symbols())
+        goodCells.push_back(e * shape.side + s);
+    }
+  const double perCell = static_cast<double>(surface.vertexCount()) / static_cast<double>(goodCells.size());
+  const auto farShare =
+      static_cast<std::uint32_t>(std::clamp(limits.farQuota * perCell, limits.leastFar, limits.mostFar));
+  const auto wanted = static_cast<std::uint32_t>(std::max(32.0, 0.75 * perCell));
+
+  // 2. Generations: queues of the cheapest pairs, served round-robin; then again with the diamonds still free.
+  std::vector<std::uint32_t> copies(goodCells.size(), 0);
+  constexpr int kGenerations = 6;
+  for (int generation = 0; generation < kGenerations; ++generation) {
+    const DiamondQueues queues(candidates, shape, goodCells, wanted);
+    std::vector<std::uint32_t> next(goodCells.size());
+    for (std::size_t g = 0; g < goodCells.size(); ++g) next[g] = queues.range(g).begin;
+    const std::size_t before = out.cells.size();
+    for (bool any = true; any;) {
+      any = false;
+      for (std::size_t g = 0; g < goodCells.size(); ++g)
+        while (next[g] < queues.range(g).end) {
+          if (next[g] >= queues.range(g).far && copies[g] >= farShare) break;
+          const Candidate& c = candidates[queues.entry(next[g]++).candidate];
+          const Diamond& q = diamonds[c.diamond];
+          DiamondShape s;
+          if (!writer.free(q) || !diamondShape(positions, q, s)) continue;
+          const std::uint32_t edgeCell = goodCells[g] / shape.side, spanCell = goodCells[g] % shape.side;
+          const double edge = fineCentre(edgeCell, shape), span = fineCentre(spanCell, shape);
+          if (!writer.write(q, s.alongEdge < 0.5 ? edge : 1 - edge, s.alongSpan < 0.5 ? span : 1 - span)) {
+            ++out.vetoed;
+            continue;
+          }
+          out.cells.push_back({c.diamond, constellation.meaning(edgeCell, spanCell), c.gap});
+          ++copies[g];
+          any = true;
+          break;
+        }
+    }
+    if (out.cells.size() - before <= out.cells.size() / 50) break;
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
+                                    [&](const Candidate& c) { return !writer.free(diamonds[c.diamond]); }),
+                     candidates.end());
+  }
+  return out;
+}
+
+}  // namespace quadmark::robust

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Writing layer B: diamonds onto the centres of good fine cells, flat.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "constellation.h"
+#include "diamonds.h"
+
+namespace quadmark::robust {
+
+struct DiamondLimits {
+  double mostGap = 0.05;              ///< natural gap of a candidate, of its shorter diagonal
+  double sharpCosine = 0;             ///< vertices of edges with a larger dihedral angle are left alone
+  double turnCosine = 0;              ///< cosine of the largest turn of an incident face against the original
+  double farQuota = 0;                ///< cells per vertex up to which far candidates may fill up a good cell's share
+  double leastFar = 2, mostFar = 10;  ///< bounds of that share, cells
+  double maxMove = 0;                 ///< file units; 0 = no limit
+};
+
+struct WrittenCell {
+  std::uint32_t diamond;  ///< index into the diamonds given
+  std::uint32_t meaning;  ///< Constellation::meaning of its fine cell
+  float naturalGap;       ///< gap before, file units
+};
+
+struct DiamondEmbedding {
+  std::vector<WrittenCell> cells;
+  std::uint32_t vetoed = 0;
+};
+
+/// Chooses and writes cells: each good cell has a queue of candidates by displacement, and all queues are served in
+/// turn, so that no coded bit is left with few copies. (Tried: the flattest diamonds first, as the paper does; the
+/// median good cell then gets 3 of 43 expected copies.)
+/// @param original   positions before any embedding: what faces must not turn away from.
+/// @param occupied   per welded vertex: 1 = not to be moved; receives the vertices of the cells.
+/// @param positions  changed in place.
+[[nodiscard]] DiamondEmbedding embedDiamonds(const Surface& surface, const std::vector<Diamond>& diamonds,
+                                             const Constellation& constellation, const CodedPayload& payload,
+                                             const DiamondLimits& limits, std::vector<std::uint8_t>& occupied,
+                                             std::vector<double>& positions);
+
+}  // namespace quadmark::robust

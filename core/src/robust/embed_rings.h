@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Writing layer A: carriers onto their lattices, sliding on the surface.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "carriers.h"
+#include "lattice.h"
+#include "ring_votes.h"
+
+namespace quadmark::robust {
+
+struct RingLimits {
+  double maxCoordinate = 0.7;  ///< carriers off-centre by more ring radii are left alone
+  double creaseCosine = 0;     ///< cosine of the largest dihedral angle in a carrier's fan
+  double turnCosine = 0.5;     ///< cosine of the largest turn of a fan triangle
+  double leastArea = 0.05;     ///< a fan triangle keeps at least this share of its area
+  double maxMove = 0;          ///< file units; 0 = no limit
+};
+
+/// Moves carriers of `positions` in place; the lattice coordinates change, the third one follows the old surface.
+/// @return the carriers written, ascending.
+[[nodiscard]] std::vector<std::uint32_t> embedRings(const Carriers& carriers, const RingCode& code,
+                                                    const CodedPayload& payload, const SymmetricTensor& tensor,
+                                                    const RingLimits& limits, std::vector<double>& positions);
+
+}  // namespace quadmark::robust

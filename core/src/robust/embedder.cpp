@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "quadmark/robust/embedder.h"
+
+#include <algorithm>
+
+#include "embed_diamonds.h"
+#include "embed_rings.h"
+#include "quadmark/random.h"
+
+namespace quadmark::robust {
+namespace {
+
+// Cosines of the angles that limits are given by.
+constexpr double kCos20 = 0.93969262078590838, kCos35 = 0.81915204428899180, kCos60 = 0.5;
+
+struct Preset {
+  RingLimits ring;
+  DiamondLimits diamond;
+};
+
+Preset presetOf(Strength strength) {
+  Preset out;
+  out.ring.creaseCosine = kCos20;
+  out.ring.turnCosine = kCos60;
+  out.diamond.turnCosine = kCos20;
+  out.diamond.mostGap = strength == Strength::strong ? 0.1 : 0.05;
+  out.diamond.sharpCosine = strength == Strength::strong ? kCos60 : kCos35;
+  out.diamond.farQuota = strength == Strength::strong ? 0.135 : 0.075;
+  out.diamond.mostFar = strength == Strength::strong ? 100 : 10;
+  return out;
+}
+
+// Half the noise of 14-bit quantization, of the extent: the mark's natural enemy sets the scale of fine cells.
+constexpr double kQuantizationSigma = 1.76e-5;
+
+// The coarsest noise any diamond of the middle sees; cells of five times that are read reliably.
+std::uint8_t chooseDelta(const std::vector<Diamond>& diamonds, const std::vector<double>& positions,
+                         std::size_t codedBits, bool hasBody) {
+  std::vector<double> blur;
+  const double sigma = kQuantizationSigma * largestExtent(positions);
+  DiamondShape s;
+  for (const Diamond& q : diamonds)
+    if (diamondShape(positions, q, s) && folded(s.alongEdge) > kLeastRatio && folded(s.alongSpan) > kLeastRatio)
+      blur.push_back(std::max(s.edgeGain, s.spanGain) * sigma);
+  double median = 0;
+  if (!blur.empty()) {
+    std::nth_element(blur.begin(), blur.begin() + blur.size() / 2, blur.end());
+    median = blur[blur.size() / 2];
+  }
+  if (!hasBody) return 5 * median <= kDeltas[0].delta ? 0 : 5 * median <= kDeltas[1].delta ? 1 : 2;
+  for (const std::uint8_t c : {std::uint8_t{0}, std::uint8_t{3}}) {
+    const std::size_t slots =
+        std::size_t{kDeltas[c].side} * kDeltas[c].side / (1u << kDeltas[c].symbol) * kDeltas[c].symbol;
+    if (2 * slots >= codedBits) return c;
+  }
+  return 4;
+}
+
+std::uint32_t countSet(const std::vector<std::uint8_t>& flags) {
+  return static_cast<std::uint32_t>(std::count(flags.begin(), flags.end(), 1));
+}
+
+}  // namespace
+
+Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payload, const RobustKeys& keys,
+                                    const EmbedOptions& options) {
+  if (payload.head.empty()) return Error{ErrorCode::badOption, "payload: the head is empty"};
+  for (const auto& [name, cap] : {std::pair{"maxError", options.maxErrorRel}, {"maxSlide", options.maxSlideRel}})
+    if (!(cap >= 0 && cap <= 1))
+      return Error{ErrorCode::badOption, std::string(name) + ": " + std::to_string(cap) + " is not within 0..1"};
+  const double diagonal = boundingDiagonal(mesh);
+  if (!(diagonal > 0)) return Error{ErrorCode::badMesh, "the model has no extent"};
+  const auto cancelled = [&](const char* stage, double done) {
+    return options.progress && !options.progress(stage, done);
+  };
+  const Error aborted{ErrorCode::aborted, "cancelled by the caller"};
+
+  Preset preset = presetOf(options.strength);
+  preset.ring.maxMove = preset.diamond.maxMove = options.maxErrorRel * diagonal;
+  if (cancelled("surface", 0)) return aborted;
+  const Surface surface = makeSurface(mesh);
+  const Carriers carriers = selectCarriers(surface, Prf(keys.select));
+  std::vector<double> positions = surface.welded.positions;
+  RobustEmbedding out;
+
+  // 1. Layer B, off the carriers but across their rings: A is written on the result, so neither sees the other.
+  if (cancelled("diamonds", 0.3)) return aborted;
+  const std::vector<Diamond> diamonds = collectDiamonds(surface);
+  const Sharing sharing = payload.hasBody() ? Sharing::split : Sharing::headOnly;
+  out.deltaClass = chooseDelta(diamonds, positions, payload.head.size() + payload.body.size(), payload.hasBody());
+  const Constellation constellation(out.deltaClass, keys, sharing, payload.headCode(), payload.bodyCode());
+  std::vector<std::uint8_t> occupied(surface.vertexCount(), 0);
+  for (const std::uint32_t v : carriers.vertex) occupied[v] = 1;
+  const DiamondEmbedding cells =
+      embedDiamonds(surface, diamonds, constellation, payload, preset.diamond, occupied, positions);
+
+  // 2. Layer A.
+  if (cancelled("rings", 0.8)) return aborted;
+  const RingCode code(keys);
+  const std::vector<std::uint32_t> written =
+      embedRings(carriers, code, payload, edgeTensor(surface, positions), preset.ring, positions);
+
+  // 3. Back to the file's vertices and precision.
+  out.positions = mesh.positions;
+  out.displacement.assign(mesh.vertexCount(), 0.0f);
+  for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+    const std::uint32_t w = surface.welded.weldedOf[v];
+    if (w == kNoVertex) continue;
+    const Vec3 from = at(surface.welded.positions, w), to = at(positions, w);
+    if (from.x == to.x && from.y == to.y && from.z == to.z) continue;
+    const bool single = mesh.precision == Precision::float32;
+    const double exact[3] = {to.x, to.y, to.z};
+    for (int k = 0; k < 3; ++k) out.positions[3 * v + k] = single ? nearestFloat32(exact[k]) : exact[k];
+    out.displacement[v] = static_cast<float>(length(at(out.positions, v) - from));
+  }
+
+  // 4. Counts.
+  out.selected = carriers.count();
+  out.carriers = static_cast<std::uint32_t>(written.size());
+  std::vector<std::uint64_t> labels;
+  std::vector<std::uint8_t> ringHit[2], diamondHit[2];
+  for (auto* hit : {ringHit, diamondHit}) {
+    hit[0].assign(payload.head.size(), 0);
+    hit[1].assign(payload.body.size(), 0);
+  }
+  for (const std::uint32_t i : written) {
+    labels.push_back(carriers.label[i]);
+    for (int k = 0; k < 2; ++k) {
+      const RingSlot slot = code.slot(carriers.label[i], k);
+      auto& hit = ringHit[slot.stream(sharing) == Stream::body];
+      hit[slot.index % hit.size()] = 1;
+    }
+  }
+  std::sort(labels.begin(), labels.end());
+  out.labels = static_cast<std::uint32_t>(std::unique(labels.begin(), labels.end()) - labels.begin());
+  for (const WrittenCell& cell : cells.cells)
+    for (std::uint32_t t = 0; t < constellation.shape().symbol; ++t) {
+      const Constellation::Slot& slot = constellation.slot(cell.meaning / constellation.symbols(), t);
+      diamondHit[slot.stream == Stream::body][slot.bit] = 1;
+    }
+  out.cells = static_cast<std::uint32_t>(cells.cells.size());
+  out.vetoed = cells.vetoed;
+  out.goodCells = constellation.groups();
+  out.ringPositions = countSet(ringHit[0]);
+  out.ringBodyPositions = countSet(ringHit[1]);
+  out.diamondPositions = countSet(diamondHit[0]);
+  out.diamondBodyPositions = countSet(diamondHit[1]);
+  return out;
+}
+
+}  // namespace quadmark::robust

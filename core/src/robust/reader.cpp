@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "quadmark/robust/reader.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "diamond_votes.h"
+#include "ring_votes.h"
+
+namespace quadmark::robust {
+namespace {
+
+// Vertex noise assumed, of the largest extent, likeliest first.
+constexpr double kRingSigmas[] = {1e-4, 4e-4, 1e-3, 1e-6};
+constexpr double kDiamondSigmas[] = {1e-5, 1.8e-5, 3e-6, 4e-8, 4e-5, 8e-5};
+constexpr double kSharpenings[] = {0.1, 0.3, 0.6, 1.0};
+constexpr std::uint8_t kHeadOnlyClasses[] = {0, 1, 2}, kSplitClasses[] = {0, 3, 4};
+
+// Calls visit(hypothesis) for all, likeliest first, until it returns true.
+template <class Visit>
+bool forEachHypothesis(const ReadLimits& limits, const Visit& visit) {
+  std::uint32_t number = 0;
+  const int sharings = limits.trySplit ? 2 : 1;
+  const auto offer = [&](Layers layers, int sharing, std::uint8_t deltaClass, double ring, double diamond,
+                         double sharp) {
+    return visit(Hypothesis{layers, static_cast<Sharing>(sharing), deltaClass, ring, diamond, sharp, ++number});
+  };
+  const auto classes = [](int sharing) -> const std::uint8_t(&)[3] {
+    return sharing == 0 ? kHeadOnlyClasses : kSplitClasses;
+  };
+  for (int sharing = 0; sharing < sharings; ++sharing)
+    for (const double sigma : kRingSigmas)
+      if (offer(Layers::ring, sharing, 0, sigma, 0, 0)) return true;
+  for (int late = 0; late < 2; ++late)
+    for (int sharing = 0; sharing < sharings; ++sharing)
+      for (const std::uint8_t deltaClass : classes(sharing))
+        for (std::size_t i = late == 0 ? 0 : 2; i < (late == 0 ? 2 : std::size(kDiamondSigmas)); ++i)
+          if (offer(Layers::diamonds, sharing, deltaClass, 0, kDiamondSigmas[i], 0)) return true;
+  if (!limits.tryHarder) return false;
+  for (int sharing = 0; sharing < sharings; ++sharing)
+    for (int i = 0; i < 2; ++i)
+      for (const std::uint8_t deltaClass : classes(sharing))
+        for (const double sigma : kDiamondSigmas)
+          if (offer(Layers::both, sharing, deltaClass, kRingSigmas[i], sigma, 0)) return true;
+  for (const double sharpening : kSharpenings)
+    for (int sharing = 0; sharing < sharings; ++sharing)
+      for (const double sigma : kRingSigmas)
+        if (offer(Layers::ring, sharing, 0, sigma, 0, sharpening)) return true;
+  return false;
+}
+
+}  // namespace
+
+struct MeshReader::State {
+  const Mesh& mesh;
+  RobustKeys keys;
+  StreamCode head;
+  Surface surface;
+  double extent = 0;
+  Carriers carriers;
+  RingCode ringCode;
+  ReaderCoverage coverage;
+  std::map<double, RingVotes> ringVotes;  // by sharpening
+  std::unique_ptr<DiamondVotes> diamondVotes;
+  std::map<std::pair<std::uint8_t, double>, CellScores> scores;  // by delta class and sigma
+
+  State(const Mesh& m, const RobustKeys& k, StreamCode h)
+      : mesh(m),
+        keys(k),
+        head(std::move(h)),
+        surface(makeSurface(m)),
+        extent(largestExtent(surface.welded.positions)),
+        carriers(selectCarriers(surface, Prf(k.select))),
+        ringCode(k) {
+    coverage.vertices = surface.vertexCount();
+    coverage.carriers = carriers.count();
+    const RingVotes& votes = rings(0);
+    coverage.labels = votes.labelCount();
+    coverage.ringPositions = votes.positionsHit({Sharing::headOnly, Stream::head, head.bits});
+  }
+
+  const RingVotes& rings(double sharpening) {
+    const auto found = ringVotes.find(sharpening);
+    if (found != ringVotes.end()) return found->second;
+    const std::vector<double> positions = sharpening > 0 ? sharpened(surface, sharpening) : surface.welded.positions;
+    return ringVotes.emplace(sharpening, RingVotes(carriers, ringCode, positions, edgeTensor(surface, positions)))
+        .first->second;
+  }
+
+  const CellScores& cells(std::uint8_t deltaClass, double sigma) {
+    if (!diamondVotes) {
+      std::vector<double> sigmas;
+      for (const double s : kDiamondSigmas) sigmas.push_back(s * extent);
+      diamondVotes = std::make_unique<DiamondVotes>(surface, surface.welded.positions, sigmas);
+      coverage.diamonds = diamondVotes->count();
+    }
+    const auto [place, isNew] = scores.try_emplace({deltaClass, sigma});
+    if (isNew) place->second = diamondVotes->score(kDeltas[deltaClass], sigma * extent);
+    coverage.diamondShare = std::max(coverage.diamondShare, place->second.share);
+    return place->second;
+  }
+
+  std::vector<float> ratios(const Hypothesis& h, Stream stream, const StreamCode& body) {
+    const StreamSelection selection{h.sharing, stream, stream == Stream::head ? head.bits : body.bits};
+    std::vector<float> out(selection.bits, 0.0f);
+    if (h.layers != Layers::diamonds) rings(h.sharpening).addRatios(h.ringSigma * extent, selection, out);
+    if (h.layers != Layers::ring)
+      DiamondVotes::addRatios(Constellation(h.deltaClass, keys, h.sharing, head, body),
+                              cells(h.deltaClass, h.diamondSigma), stream, out);
+    return out;
+  }
+};
+
+MeshReader::MeshReader(const Mesh& mesh, const RobustKeys& keys, StreamCode head)
+    : state_(std::make_unique<State>(mesh, keys, std::move(head))) {}
+MeshReader::~MeshReader() = default;
+MeshReader::MeshReader(MeshReader&&) noexcept = default;
+
+bool MeshReader::search(const ReadLimits& limits, const AcceptHead& accept) {
+  return forEachHypothesis(limits, [&](const Hypothesis& h) { return accept(headRatios(h), h); });
+}
+
+std::vector<Hypothesis> MeshReader::hypotheses(const ReadLimits& limits) {
+  std::vector<Hypothesis> out;
+  forEachHypothesis(limits, [&](const Hypothesis& h) {
+    out.push_back(h);
+    return false;
+  });
+  return out;
+}
+
+std::vector<float> MeshReader::headRatios(const Hypothesis& hypothesis) {
+  return state_->ratios(hypothesis, Stream::head, {});
+}
+
+std::vector<float> MeshReader::bodyRatios(const Hypothesis& hypothesis, const StreamCode& body) {
+  return state_->ratios(hypothesis, Stream::body, body);
+}
+
+Agreement MeshReader::ringAgreement(const CodedPayload& expected, double sharpening) {
+  Agreement out;
+  const Sharing sharing = expected.hasBody() ? Sharing::split : Sharing::headOnly;
+  const RingVotes& votes = state_->rings(sharpening);
+  votes.countAgreement({sharing, Stream::head, 0}, expected.head, out);
+  votes.countAgreement({sharing, Stream::body, 0}, expected.body, out);
+  return out;
+}
+
+Agreement MeshReader::diamondAgreement(const CodedPayload& expected, const Hypothesis& hypothesis) {
+  Agreement out;
+  Hypothesis h = hypothesis;
+  h.layers = Layers::diamonds;
+  h.sharing = expected.hasBody() ? Sharing::split : Sharing::headOnly;
+  const auto count = [&](const std::vector<float>& ratios, const std::vector<std::uint8_t>& bits) {
+    for (std::size_t i = 0; i < bits.size(); ++i) {
+      if (ratios[i] == 0) continue;
+      ++out.votes;
+      out.agreeing += (ratios[i] < 0) == (bits[i] != 0);
+    }
+  };
+  count(headRatios(h), expected.head);
+  if (expected.hasBody()) count(bodyRatios(h, expected.bodyCode()), expected.body);
+  return out;
+}
+
+std::vector<float> MeshReader::evidence(const CodedPayload& payload, const Hypothesis& hypothesis) {
+  State& s = *state_;
+  std::vector<float> perWelded(s.surface.vertexCount(), 0.0f);
+  const std::vector<float> perCarrier = s.rings(hypothesis.sharpening).agreementPerCarrier(payload);
+  for (std::size_t i = 0; i < perCarrier.size(); ++i) perWelded[s.carriers.vertex[i]] = perCarrier[i];
+  if (hypothesis.layers != Layers::ring) {
+    const Sharing sharing = payload.hasBody() ? Sharing::split : Sharing::headOnly;
+    const Constellation constellation(hypothesis.deltaClass, s.keys, sharing, payload.headCode(), payload.bodyCode());
+    addDiamondEvidence(s.surface, constellation, payload, hypothesis.diamondSigma * s.extent, perWelded);
+  }
+  std::vector<float> out(s.mesh.vertexCount(), 0.0f);
+  for (std::size_t v = 0; v < out.size(); ++v)
+    if (s.surface.welded.weldedOf[v] != kNoVertex) out[v] = perWelded[s.surface.welded.weldedOf[v]];
+  return out;
+}
+
+const ReaderCoverage& MeshReader::coverage() const {
+  return state_->coverage;
+}
+
+}  // namespace quadmark::robust

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// What both layers see of a mesh: welded faces without degenerate ones, ordered one-rings, the edge tensor.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "quadmark/adjacency.h"
+#include "quadmark/mesh.h"
+#include "quadmark/vec3.h"
+
+namespace quadmark::robust {
+
+/// Rings of fewer or more vertices carry nothing.
+inline constexpr std::uint32_t kMinRing = 3, kMaxRing = 24;
+
+struct Surface {
+  WeldedMesh welded;
+  std::vector<std::uint32_t> faceOffsets;   ///< faces + 1 corner offsets
+  std::vector<std::uint32_t> corners;       ///< welded vertex per corner; no corner equals its successor
+  std::vector<std::uint32_t> ringOffsets;   ///< welded vertices + 1
+  std::vector<std::uint32_t> rings;         ///< edge neighbours in cyclic order; none where the fan is not closed
+  std::vector<std::uint32_t> cornerCounts;  ///< per welded vertex: face corners at it, plus 32 per side beyond three
+
+  [[nodiscard]] std::uint32_t vertexCount() const { return welded.vertexCount(); }
+  [[nodiscard]] std::uint32_t faceCount() const { return static_cast<std::uint32_t>(faceOffsets.size() - 1); }
+  [[nodiscard]] std::span<const std::uint32_t> face(std::uint32_t f) const {
+    return {corners.data() + faceOffsets[f], faceOffsets[f + 1] - faceOffsets[f]};
+  }
+  /// Closed manifold fan of kMinRing..kMaxRing neighbours, or empty. Which one is first and the sense of rotation
+  /// depend on the file's order.
+  [[nodiscard]] std::span<const std::uint32_t> ring(std::uint32_t vertex) const {
+    return {rings.data() + ringOffsets[vertex], ringOffsets[vertex + 1] - ringOffsets[vertex]};
+  }
+};
+
+/// @param mesh  must validate(). Cost: linear.
+[[nodiscard]] Surface makeSurface(const Mesh& mesh);
+
+/// Largest side of the bounding box of the welded vertices; 0 for none.
+[[nodiscard]] double largestExtent(std::span<const double> positions);
+
+/// Symmetric 3 x 3 matrix.
+struct SymmetricTensor {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  [[nodiscard]] Vec3 times(const Vec3& v) const {
+    return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
+  }
+};
+
+/// Sum of e e^T over the directed edges of all faces. Under an affine map A it becomes A M A^T, so M n, for n normal to
+/// a plane, turns with the surface as no Euclidean normal does.
+[[nodiscard]] SymmetricTensor edgeTensor(const Surface& surface, const std::vector<double>& positions);
+
+/// Positions before `lambda` of umbrella smoothing in all: steps of x -= 0.03 (mean of neighbours - x). Vertices
+/// without a ring stay, as smoothing tools hold borders.
+[[nodiscard]] std::vector<double> sharpened(const Surface& surface, double lambda);
+
+}  // namespace quadmark::robust

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// The parts between a mesh and coded bits, one by one: rings, labels, frames, lattices, diamonds, constellation.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "quadmark/lab/attacks.h"
+#include "quadmark/lab/generate.h"
+#include "quadmark/random.h"
+#include "robust/carriers.h"
+#include "robust/constellation.h"
+#include "robust/diamonds.h"
+#include "robust/labels.h"
+#include "robust/lattice.h"
+#include "robust/surface.h"
+
+namespace quadmark::robust {
+namespace {
+
+RobustKeys keysOf(std::uint64_t seed) {
+  RobustKeys keys;
+  Random random(seed);
+  for (SubKey* key : {&keys.select, &keys.dither, &keys.constellation, &keys.assignment, &keys.share})
+    for (std::uint8_t& byte : *key) byte = static_cast<std::uint8_t>(random.next() >> 56);
+  return keys;
+}
+
+// Every face of a mesh turned over: what a tool does that bakes a mirroring transform.
+Mesh turnedOver(Mesh mesh) {
+  for (std::size_t f = 0; f < mesh.faceCount(); ++f)
+    std::reverse(mesh.faceVertices.begin() + static_cast<std::ptrdiff_t>(mesh.faceBegin(f)),
+                 mesh.faceVertices.begin() + static_cast<std::ptrdiff_t>(mesh.faceEnd(f)));
+  return mesh;
+}
+
+TEST(RobustSurface, OrdersClosedFansAndLeavesBordersOut) {
+  const Surface closed = makeSurface(lab::icosphere(2));
+  for (std::uint32_t v = 0; v < closed.vertexCount(); ++v) {
+    const auto ring = closed.ring(v);
+    ASSERT_EQ(ring.size(), closed.welded.neighboursOf(v).size());
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const auto around = closed.welded.neighboursOf(ring[k]);
+      const std::uint32_t next = ring[(k + 1) % ring.size()];
+      EXPECT_TRUE(std::binary_search(around.begin(), around.end(), next)) << "successive ring vertices share an edge";
+    }
+  }
+  const Surface open = makeSurface(lab::bumpyGrid(5, 4, 1));
+  std::uint32_t rings = 0;
+  for (std::uint32_t v = 0; v < open.vertexCount(); ++v) rings += !open.ring(v).empty();
+  EXPECT_EQ(rings, 3u * 2u);
+  const Surface bowTie = makeSurface(lab::nonManifold());
+  for (std::uint32_t v = 0; v < bowTie.vertexCount(); ++v) EXPECT_TRUE(bowTie.ring(v).size() != 1);
+}
+
+TEST(RobustSurface, DropsDegenerateFacesAndRepeatedCorners) {
+  Mesh mesh;
+  mesh.positions = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 1, 0, 0};
+  mesh.faceOffsets = {0, 4, 7, 11};
+  mesh.faceVertices = {0, 1, 4, 2, 0, 1, 4, 0, 1, 2, 3};  // a quad with twins, a triangle that is a line, a quad
+  const Surface surface = makeSurface(mesh);
+  ASSERT_EQ(surface.faceCount(), 2u);
+  EXPECT_EQ(surface.face(0).size(), 3u);
+  EXPECT_EQ(surface.face(1).size(), 4u);
+}
+
+TEST(RobustSurface, SharpeningUndoesSmoothing) {
+  const Mesh mesh = lab::sculpture(2000);
+  const Mesh smooth = lab::smoothLaplacian(mesh, 0.03, 3);
+  const std::vector<double> back = sharpened(makeSurface(smooth), 0.09);
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < back.size(); ++i) {
+    before += std::fabs(smooth.positions[i] - mesh.positions[i]);
+    after += std::fabs(back[i] - mesh.positions[i]);
+  }
+  EXPECT_LT(after, 0.15 * before);
+}
+
+TEST(RobustLabels, DependOnConnectivityAlone) {
+  const Mesh mesh = lab::sculpture(3000);
+  lab::VertexOrigin origin;
+  const Mesh shuffled = turnedOver(lab::reorder(lab::noise(mesh, 1e-3, 1), 9, &origin));
+  const Surface a = makeSurface(mesh), b = makeSurface(shuffled);
+  const Labels la = refineLabels(a), lb = refineLabels(b);
+  std::set<std::uint64_t> distinct;
+  for (std::uint32_t v = 0; v < shuffled.vertexCount(); ++v) {
+    EXPECT_EQ(lb.label[b.welded.weldedOf[v]], la.label[a.welded.weldedOf[origin[v]]]);
+    distinct.insert(lb.label[v]);
+  }
+  EXPECT_GT(distinct.size(), a.vertexCount() / 2) << "irregular connectivity tells most vertices apart";
+}
+
+TEST(RobustCarriers, AreTheSameIndependentSetInEveryOrder) {
+  const Mesh mesh = lab::sculpture(3000);
+  lab::VertexOrigin origin;
+  const Mesh shuffled = turnedOver(lab::reorder(mesh, 4, &origin));
+  const Surface a = makeSurface(mesh), b = makeSurface(shuffled);
+  const Prf select(keysOf(1).select);
+  const Carriers ca = selectCarriers(a, select), cb = selectCarriers(b, select);
+  ASSERT_GT(ca.count(), a.vertexCount() / 12);
+  ASSERT_EQ(ca.count(), cb.count());
+  std::vector<std::uint32_t> indexInA(a.vertexCount(), kNoVertex);
+  for (std::uint32_t i = 0; i < ca.count(); ++i) indexInA[ca.vertex[i]] = i;
+  for (std::uint32_t i = 0; i < cb.count(); ++i) {
+    const std::uint32_t j = indexInA[origin[cb.vertex[i]]];
+    ASSERT_NE(j, kNoVertex);
+    ASSERT_EQ(ca.ring(j).size(), cb.ring(i).size());
+    for (std::size_t k = 0; k < ca.ring(j).size(); ++k) {
+      EXPECT_EQ(ca.ring(j)[k], origin[cb.ring(i)[k]]) << "the canonical order is the same";
+      EXPECT_EQ(indexInA[ca.ring(j)[k]], kNoVertex) << "no two carriers are neighbours";
+    }
+  }
+}
+
+TEST(RobustCarriers, OtherKeysSelectOthers) {
+  const Surface surface = makeSurface(lab::sculpture(3000));
+  const Carriers a = selectCarriers(surface, Prf(keysOf(1).select)), b = selectCarriers(surface, Prf(keysOf(2).select));
+  std::vector<std::uint32_t> both;
+  std::set_intersection(a.vertex.begin(), a.vertex.end(), b.vertex.begin(), b.vertex.end(), std::back_inserter(both));
+  EXPECT_LT(both.size(), a.vertex.size() / 3);
+}
+
+TEST(RobustFrame, IsCovariantUnderEveryAffineMap) {
+  const Mesh mesh = lab::sculpture(2000);
+  for (const char* name : {"R", "NS", "RE", "SH", "CB"}) {
+    SCOPED_TRACE(name);
+    Mesh moved = mesh;
+    moved.precision = Precision::float64;
+    moved = lab::affine(moved, *lab::paperAffine(name));
+    const Surface a = makeSurface(mesh), b = makeSurface(moved);
+    const Carriers carriers = selectCarriers(a, Prf(keysOf(1).select));
+    const SymmetricTensor ta = edgeTensor(a, a.welded.positions), tb = edgeTensor(b, b.welded.positions);
+    for (std::uint32_t i = 0; i < carriers.count(); ++i) {
+      RingFrame fa, fb;
+      if (!ringFrame(a.welded.positions, carriers.ring(i), ta, fa)) continue;
+      if (!ringFrame(b.welded.positions, carriers.ring(i), tb, fb)) continue;
+      const RingCoordinates pa = coordinatesIn(fa, at(a.welded.positions, carriers.vertex[i]));
+      const RingCoordinates pb = coordinatesIn(fb, at(b.welded.positions, carriers.vertex[i]));
+      EXPECT_NEAR(pa.alpha, pb.alpha, 1e-9);
+      EXPECT_NEAR(pa.beta, pb.beta, 1e-9);
+    }
+  }
+}
+
+TEST(RobustFrame, RebuildsThePointFromItsCoordinates) {
+  const Surface surface = makeSurface(lab::sculpture(2000));
+  const SymmetricTensor tensor = edgeTensor(surface, surface.welded.positions);
+  RingFrame frame;
+  ASSERT_TRUE(ringFrame(surface.welded.positions, surface.ring(7), tensor, frame));
+  const Vec3 p = at(surface.welded.positions, 7), q = pointAt(frame, coordinatesIn(frame, p));
+  EXPECT_NEAR(length(p - q), 0, 1e-14);
+}
+
+TEST(RobustFrame, RefusesRingsWithoutArea) {
+  const std::vector<double> line = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
+  const std::uint32_t ring[] = {0, 1, 2, 3};
+  SymmetricTensor unit;
+  unit.xx = unit.yy = unit.zz = 1;
+  RingFrame frame;
+  EXPECT_FALSE(ringFrame(line, ring, unit, frame));
+}
+
+TEST(RobustLattice, WritesTheNearestPointAndReadsItBack) {
+  Random random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const double x = random.uniform(-1, 1), offset = random.uniform();
+    const bool bit = (random.next() & 1) != 0;
+    const double y = nearestLatticePoint(x, 0.5, offset, bit);
+    EXPECT_LE(std::fabs(y - x), 0.25 + 1e-12);
+    EXPECT_NEAR(latticeVote(y, 0.5, offset), bit ? -1 : 1, 1e-9);
+    EXPECT_NEAR(latticeVote(y + 0.0625, 0.5, offset), bit ? -0.5 : 0.5, 1e-9);
+  }
+}
+
+TEST(RobustDiamonds, MeasureWhereDiagonalsMeet) {
+  const std::vector<double> positions = {0, 0, 0.1, 0, 1, 0, 4, 0, 0.1, 0, -3, 0};  // a, b, c, d: a-c lies 0.1 above
+  DiamondShape shape;
+  ASSERT_TRUE(diamondShape({0, 0, 0.1, 1, 1, 0, 4, 0, 0.1, 1, -3, 0}, {0, 1, 2, 3}, shape));
+  EXPECT_NEAR(shape.alongSpan, 0.25, 1e-12);
+  EXPECT_NEAR(shape.alongEdge, 0.25, 1e-12);
+  EXPECT_NEAR(shape.gapLength, 0.1, 1e-12);
+  EXPECT_NEAR(shape.edgeLength, 4, 1e-12);
+  EXPECT_FALSE(diamondShape(positions, {0, 1, 2, 3}, shape)) << "the diagonals meet at an end: not convex";
+}
+
+TEST(RobustDiamonds, AreInteriorEdgesOfTrianglesAndBothDiagonalsOfQuads) {
+  const Mesh sphere = lab::icosphere(2);
+  EXPECT_EQ(collectDiamonds(makeSurface(sphere)).size(), 3 * sphere.faceCount() / 2);
+  const Mesh quads = lab::quadSphere(2);
+  EXPECT_EQ(collectDiamonds(makeSurface(quads)).size(), 2 * quads.faceCount());
+  EXPECT_EQ(collectDiamonds(makeSurface(lab::bumpyGrid(3, 2, 1))).size(), 3u);  // four triangles in a row
+}
+
+TEST(RobustConstellation, HasOneGoodCellPerGroupAndSplitsSlotsByKey) {
+  CodedPayload payload;
+  Random random(5);
+  for (int i = 0; i < 276; ++i) {
+    payload.head.push_back(static_cast<std::uint8_t>(random.next() & 1));
+    payload.headGenerator.push_back(static_cast<std::uint8_t>(i % 3));
+  }
+  const Constellation all(1, keysOf(1), Sharing::headOnly, payload.headCode(), payload.bodyCode());
+  std::vector<std::uint32_t> meanings;
+  for (std::uint32_t e = 0; e < all.shape().side; ++e)
+    for (std::uint32_t s = 0; s < all.shape().side; ++s)
+      if (all.meaning(e, s) != Constellation::kNone) meanings.push_back(all.meaning(e, s));
+  std::sort(meanings.begin(), meanings.end());
+  ASSERT_EQ(meanings.size(), all.groups() * all.symbols());
+  for (std::uint32_t i = 0; i < meanings.size(); ++i) EXPECT_EQ(meanings[i], i);
+  const std::vector<std::uint32_t> good = all.goodSymbols(payload);
+  std::set<std::uint32_t> carried;
+  for (std::uint32_t g = 0; g < all.groups(); ++g)
+    for (std::uint32_t t = 0; t < all.shape().symbol; ++t) {
+      EXPECT_EQ(good[g] >> t & 1u, payload.head[all.slot(g, t).bit]);
+      carried.insert(all.slot(g, t).bit);
+    }
+  // 234 slots for 276 bits: the 184 of generators 0 and 1 are all there, the rest is punctured.
+  EXPECT_EQ(carried.size(), 234u);
+  for (std::uint32_t i = 0; i < 276; ++i) EXPECT_TRUE(i % 3 == 2 || carried.count(i) == 1);
+
+  payload.body.assign(600, 1);
+  const Constellation split(3, keysOf(1), Sharing::split, payload.headCode(), payload.bodyCode());
+  const Constellation blind(3, keysOf(1), Sharing::split, payload.headCode(), {});
+  std::uint32_t heads = 0;
+  for (std::uint32_t g = 0; g < split.groups(); ++g) {
+    heads += split.slot(g, 0).stream == Stream::head;
+    EXPECT_EQ(split.slot(g, 0).stream, blind.slot(g, 0).stream) << "the head is found without knowing the body";
+    EXPECT_TRUE(split.slot(g, 0).stream == Stream::body || split.slot(g, 0).bit == blind.slot(g, 0).bit);
+  }
+  EXPECT_NEAR(heads, split.groups() * 3 / 16.0, 1);
+}
+
+}  // namespace
+}  // namespace quadmark::robust

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// Coded bits into a mesh and back: what each layer survives, what the embedder must not do.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fixtures.h"
+#include "quadmark/random.h"
+#include "quadmark/robust/embedder.h"
+#include "quadmark/robust/reader.h"
+
+namespace quadmark::robust {
+namespace {
+
+RobustKeys keysOf(std::uint64_t seed) {
+  RobustKeys keys;
+  Random random(seed);
+  for (SubKey* key : {&keys.select, &keys.dither, &keys.constellation, &keys.assignment, &keys.share})
+    for (std::uint8_t& byte : *key) byte = static_cast<std::uint8_t>(random.next() >> 56);
+  return keys;
+}
+
+CodedPayload payloadOf(std::uint64_t seed, int bodyBits = 0) {
+  CodedPayload out;
+  Random random(seed);
+  for (int i = 0; i < 276; ++i) {
+    out.head.push_back(static_cast<std::uint8_t>(random.next() & 1));
+    out.headGenerator.push_back(static_cast<std::uint8_t>(i % 3));
+  }
+  for (int i = 0; i < bodyBits; ++i) {
+    out.body.push_back(static_cast<std::uint8_t>(random.next() & 1));
+    out.bodyGenerator.push_back(static_cast<std::uint8_t>(i % 2));
+  }
+  return out;
+}
+
+Mesh marked(const Mesh& mesh, const CodedPayload& payload, const EmbedOptions& options = {}) {
+  Mesh out = mesh;
+  out.positions = embedRobust(mesh, payload, keysOf(1), options).value().positions;
+  return out;
+}
+
+// Share of coded bits that a set of ratios gets wrong; unknown ones count half.
+double errorRate(const std::vector<float>& ratios, const std::vector<std::uint8_t>& bits) {
+  double wrong = 0;
+  for (std::size_t i = 0; i < bits.size(); ++i) wrong += ratios[i] == 0 ? 0.5 : (ratios[i] < 0) != (bits[i] != 0);
+  return wrong / static_cast<double>(bits.size());
+}
+
+// The least error rate of the head over all hypotheses of some layers.
+double bestErrorRate(const Mesh& mesh, const CodedPayload& payload, Layers layers, const RobustKeys& keys = keysOf(1)) {
+  MeshReader reader(mesh, keys, payload.headCode());
+  double best = 1;
+  for (const Hypothesis& h : MeshReader::hypotheses({.trySplit = payload.hasBody()}))
+    if (h.layers == layers && h.sharpening == 0 &&
+        h.sharing == (payload.hasBody() ? Sharing::split : Sharing::headOnly))
+      best = std::min(best, errorRate(reader.headRatios(h), payload.head));
+  return best;
+}
+
+TEST(RobustMesh, BothLayersReadBack) {
+  const CodedPayload payload = payloadOf(1);
+  for (const Mesh& mesh : {lab::sculpture(8000), lab::machinedPart(8000)}) {
+    const Mesh copy = marked(mesh, payload, {.strength = Strength::strong});
+    EXPECT_LT(bestErrorRate(copy, payload, Layers::ring), 0.08);
+    EXPECT_LT(bestErrorRate(copy, payload, Layers::diamonds), 0.08);
+    EXPECT_NEAR(bestErrorRate(copy, payload, Layers::ring, keysOf(2)), 0.5, 0.12) << "another key reads noise";
+    EXPECT_NEAR(bestErrorRate(mesh, payload, Layers::ring), 0.5, 0.12) << "an unmarked model reads noise";
+  }
+}
+
+TEST(RobustMesh, RingsSurviveNoiseQuantizationAndAffineMaps) {
+  const CodedPayload payload = payloadOf(2);
+  const Mesh copy = marked(lab::sculpture(8000), payload);
+  EXPECT_LT(bestErrorRate(lab::noise(copy, 3e-4, 1), payload, Layers::ring), 0.1);
+  EXPECT_LT(bestErrorRate(lab::quantize(copy, 11, lab::Grid::common), payload, Layers::ring), 0.1);
+  EXPECT_LT(bestErrorRate(lab::affine(lab::reorder(copy, 3), *lab::paperAffine("CB")), payload, Layers::ring), 0.1);
+}
+
+TEST(RobustMesh, DiamondsSurviveSimplification) {
+  const CodedPayload payload = payloadOf(3);
+  const Mesh copy = marked(lab::sculpture(12000), payload, {.strength = Strength::strong});
+  EXPECT_LT(bestErrorRate(lab::simplifyMeshopt(copy, 0.7), payload, Layers::diamonds), 0.12);
+  const Mesh both = lab::quantize(lab::simplifyMeshopt(copy, 0.9), 14, lab::Grid::common);
+  EXPECT_LT(bestErrorRate(both, payload, Layers::diamonds), 0.15);
+}
+
+TEST(RobustMesh, ABodyIsReadBesideItsHead) {
+  const CodedPayload payload = payloadOf(4, 400);
+  const Mesh copy = marked(lab::sculpture(16000), payload, {.strength = Strength::strong});
+  EXPECT_LT(bestErrorRate(copy, payload, Layers::ring), 0.12);
+  MeshReader reader(copy, keysOf(1), payload.headCode());
+  const Hypothesis ring{Layers::ring, Sharing::split, 0, 1e-4, 0, 0, 1};
+  EXPECT_LT(errorRate(reader.bodyRatios(ring, payload.bodyCode()), payload.body), 0.12);
+  // Without the body's length nothing of it is claimed.
+  EXPECT_TRUE(reader.bodyRatios(ring, {}).empty());
+}
+
+TEST(RobustMesh, PolygonMeshesAreReadInEveryOrder) {
+  Mesh quads = lab::quadSphere(5);
+  quads = lab::noise(quads, 2e-3, 1);
+  const CodedPayload payload = payloadOf(5);
+  const Mesh copy = marked(quads, payload);
+  const double plain = bestErrorRate(copy, payload, Layers::diamonds);
+  EXPECT_LT(plain, 0.3);
+  EXPECT_NEAR(bestErrorRate(lab::reorder(copy, 2), payload, Layers::diamonds), plain, 0.02);
+}
+
+TEST(RobustMesh, SearchStopsWhereTheCallerAcceptsAndCountsWhatItTried) {
+  const CodedPayload payload = payloadOf(6);
+  const Mesh copy = marked(lab::sculpture(4000), payload);
+  MeshReader reader(copy, keysOf(1), payload.headCode());
+  std::uint32_t calls = 0;
+  EXPECT_TRUE(reader.search({}, [&](std::span<const float> head, const Hypothesis& h) {
+    EXPECT_EQ(head.size(), 276u);
+    EXPECT_EQ(h.number, ++calls);
+    return calls == 12;
+  }));
+  EXPECT_EQ(calls, 12u);
+  calls = 0;
+  MeshReader again(copy, keysOf(1), payload.headCode());
+  EXPECT_FALSE(again.search({}, [&](std::span<const float>, const Hypothesis&) { return ++calls == 0; }));
+  EXPECT_EQ(calls, MeshReader::hypotheses({}).size());
+}
+
+TEST(RobustMesh, VotesAgreeWithThePayloadAndWithNoOther) {
+  const CodedPayload payload = payloadOf(7), other = payloadOf(8);
+  const Mesh copy = marked(lab::sculpture(8000), payload, {.strength = Strength::strong});
+  MeshReader reader(copy, keysOf(1), payload.headCode());
+  const Agreement ring = reader.ringAgreement(payload), wrong = reader.ringAgreement(other);
+  EXPECT_GT(ring.votes, 500u);
+  EXPECT_GT(ring.agreeing, 0.65 * ring.votes) << "the votes of carriers that the embedder had to leave are chance";
+  EXPECT_NEAR(static_cast<double>(wrong.agreeing) / wrong.votes, 0.5, 0.1);
+  std::uint32_t best = 0;
+  for (const Hypothesis& h : MeshReader::hypotheses({.trySplit = false}))
+    if (h.layers == Layers::diamonds) best = std::max(best, reader.diamondAgreement(payload, h).agreeing);
+  EXPECT_GT(best, 200u);
+}
+
+TEST(RobustMesh, EvidenceIsWhereTheMarkIs) {
+  const CodedPayload payload = payloadOf(9);
+  const Mesh mesh = lab::sculpture(6000);
+  const Mesh copy = marked(mesh, payload);
+  MeshReader reader(copy, keysOf(1), payload.headCode());
+  const Hypothesis both{Layers::both, Sharing::headOnly, 0, 1e-4, 1e-5, 0, 1};
+  const std::vector<float> evidence = reader.evidence(payload, both);
+  ASSERT_EQ(evidence.size(), copy.vertexCount());
+  double moved = 0, still = 0, movedCount = 0, stillCount = 0;
+  for (std::size_t v = 0; v < evidence.size(); ++v) {
+    EXPECT_LE(std::fabs(evidence[v]), 1.0f);
+    const bool same = std::equal(&copy.positions[3 * v], &copy.positions[3 * v] + 3, &mesh.positions[3 * v]);
+    (same ? still : moved) += evidence[v];
+    (same ? stillCount : movedCount) += 1;
+  }
+  EXPECT_GT(moved / movedCount, 0.7);
+  EXPECT_LT(std::fabs(still / stillCount), 0.2);
+}
+
+TEST(RobustMesh, TwinsStayTogetherAndNumbersStayFloat32) {
+  for (const Mesh& mesh : {lab::seamed(1), lab::polygonMix(1), lab::nonManifold(), lab::twoComponents(1)}) {
+    const RobustEmbedding out = embedRobust(mesh, payloadOf(1), keysOf(1)).value();
+    ASSERT_EQ(out.positions.size(), mesh.positions.size());
+    const WeldedMesh before = weld(mesh);
+    for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(out.positions[3 * v + k], nearestFloat32(out.positions[3 * v + k]));
+        std::size_t first = 0;
+        while (before.weldedOf[first] != before.weldedOf[v]) ++first;
+        if (before.weldedOf[v] != kNoVertex) {
+          EXPECT_EQ(out.positions[3 * v + k], out.positions[3 * first + k]);
+        }
+      }
+  }
+}
+
+TEST(RobustMesh, CapsDisplacement) {
+  const Mesh mesh = lab::sculpture(5000);
+  const double diagonal = boundingDiagonal(mesh);
+  const RobustEmbedding free = embedRobust(mesh, payloadOf(1), keysOf(1)).value();
+  const RobustEmbedding capped = embedRobust(mesh, payloadOf(1), keysOf(1), {.maxErrorRel = 5e-4}).value();
+  const float most = *std::max_element(capped.displacement.begin(), capped.displacement.end());
+  EXPECT_LE(most, 5e-4 * diagonal * (1 + 1e-6));
+  EXPECT_GT(*std::max_element(free.displacement.begin(), free.displacement.end()), most);
+  EXPECT_LT(capped.cells + capped.carriers, free.cells + free.carriers);
+  EXPECT_GT(capped.carriers, 0u);
+}
+
+TEST(RobustMesh, RefusesWhatCannotBeMarked) {
+  const Mesh mesh = lab::cube();
+  EXPECT_EQ(embedRobust(mesh, {}, keysOf(1)).error().code, ErrorCode::badOption);
+  EXPECT_EQ(embedRobust(mesh, payloadOf(1), keysOf(1), {.maxErrorRel = -1}).error().code, ErrorCode::badOption);
+  Mesh point;
+  point.positions = {1, 1, 1};
+  point.faceVertices = {0, 0, 0};
+  EXPECT_EQ(embedRobust(point, payloadOf(1), keysOf(1)).error().code, ErrorCode::badMesh);
+  const auto cancelled = embedRobust(lab::sculpture(1000), payloadOf(1), keysOf(1),
+                                     {.progress = [](const char*, double) { return false; }});
+  EXPECT_EQ(cancelled.error().code, ErrorCode::aborted);
+  // Too little to carry anything is no error: the counts say so.
+  EXPECT_LT(embedRobust(mesh, payloadOf(1), keysOf(1)).value().cells, 3u);
+}
+
+TEST(RobustMesh, EmbeddingIsTheSameEveryTime) {
+  const Mesh mesh = lab::sculpture(3000);
+  EXPECT_EQ(marked(mesh, payloadOf(1)).positions, marked(mesh, payloadOf(1)).positions);
+}
+
+}  // namespace
+}  // namespace quadmark::robust
