@@ -248,10 +248,10 @@ TEST(ReadGltf, RefusesWhatThisVersionCannotHandleByName) {
   expectRefused(with("\"indices\":1", R"("indices":1,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0}})"),
                 ErrorCode::unsupportedFile, "mesh 0 primitive 0: KHR_draco_mesh_compression");
   for (const std::string name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-    expectRefused(with("\"target\":34962", "\"extensions\":{\"" + name + "\":{}}"), ErrorCode::unsupportedFile,
-                  "mesh 0 primitive 0 POSITION (accessor 0): " + name);
+    expectRefused(with("\"target\":34962", "\"extensions\":{\"" + name + "\":{}}"), ErrorCode::badFile,
+                  "bufferView 0 " + name + " has no buffer");
     expectRefused(with(R"("byteLength":48)", R"("byteLength":48,"extensions":{")" + name + "\":{}}"),
-                  ErrorCode::unsupportedFile, "mesh 0 primitive 0 indices (accessor 1): " + name);
+                  ErrorCode::badFile, "bufferView 1 " + name + " has no buffer");
   }
   expectRefused(with("5126", "5122"), ErrorCode::unsupportedFile,
                 "mesh 0 primitive 0 POSITION (accessor 0): componentType 5122 (KHR_mesh_quantization)");

@@ -164,6 +164,7 @@ Result<EmbedResponse> embed(std::span<const std::uint8_t> file, const Resources&
   if (!patched) return patched.error();
   response.file = std::move(*patched);
   std::vector<std::string> warnings = embedWarnings(**model, *marked);
+  warnings.insert(warnings.end(), response.file.warnings.begin(), response.file.warnings.end());
   if (request.key.params.scrambleOrder) {
     model->reset();  // the marked file is read instead
     if (Status s = scrambleOrder(file, resources, request.key, *bits, response.file, warnings); !s) return s.error();

@@ -32,6 +32,11 @@ Result<BufferPlace> placeBuffer(const GltfBuffer& buffer, std::size_t index, con
   const std::string name = "buffer " + std::to_string(index);
   BufferPlace place;
   place.byteLength = buffer.byteLength;
+  if (buffer.meshopt) {
+    place.source = BufferPlace::Source::meshopt;
+    place.meshopt = *buffer.meshopt;
+    return place;
+  }
   if (!buffer.hasUri) {
     if (!container.isGlb || index != 0) return badFile(name + " has no uri and so no data");
     if (!container.hasBin) return badFile(name + ": the GLB has no BIN chunk");
@@ -61,6 +66,9 @@ Result<std::vector<BufferPlace>> placeBuffers(const GltfDocument& document, cons
   for (const GltfView& view : document.views) {
     if (view.needed && view.buffer != kNone) needed[view.buffer] = true;
   }
+  for (const GltfBuffer& buffer : document.buffers) {
+    if (buffer.meshopt) needed[buffer.meshopt->buffer] = true;
+  }
   std::vector<BufferPlace> places(document.buffers.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!needed[i]) continue;
@@ -78,6 +86,7 @@ Result<BufferBytes> openBuffer(const BufferPlace& place, std::size_t index, cons
   std::string source;
   switch (place.source) {
     case BufferPlace::Source::absent:
+    case BufferPlace::Source::meshopt:
       return badFile(name + " has no data");
     case BufferPlace::Source::bin:
       buffer.bytes = container.bin(file);
@@ -105,6 +114,45 @@ Result<BufferBytes> openBuffer(const BufferPlace& place, std::size_t index, cons
                    std::to_string(buffer.bytes.size()) + " bytes");
   }
   return buffer;
+}
+
+Result<std::vector<BufferBytes>> openBuffers(const std::vector<BufferPlace>& places, const std::vector<bool>& wanted,
+                                             const GltfContainer& container, Bytes file, const Resources& resources) {
+  std::vector<bool> opening = wanted;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (wanted[i] && places[i].source == BufferPlace::Source::meshopt) opening[places[i].meshopt.buffer] = true;
+  }
+  const std::uint64_t limit = memoryLimit(file, resources);
+  std::uint64_t decodedBytes = 0;
+  std::vector<BufferBytes> buffers(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!opening[i] || places[i].source == BufferPlace::Source::absent) continue;
+    if (places[i].source != BufferPlace::Source::meshopt) {
+      Result<BufferBytes> buffer = openBuffer(places[i], i, container, file, resources);
+      if (!buffer) return buffer.error();
+      buffers[i] = std::move(buffer).value();
+      continue;
+    }
+    // Decoded buffers follow those of the file, so what they are decoded from is open.
+    const MeshoptSource& source = places[i].meshopt;
+    const std::string place = "bufferView " + std::to_string(source.view);
+    decodedBytes += places[i].byteLength;
+    if (decodedBytes > limit)
+      return tooLarge(place + ": the compressed data would take more than " + std::to_string(limit) + " bytes");
+    const Bytes stream = buffers[source.buffer].bytes.subspan(static_cast<std::size_t>(source.byteOffset),
+                                                              static_cast<std::size_t>(source.byteLength));
+    Result<std::vector<std::uint8_t>> decoded = decodeMeshopt(stream, source.layout, place);
+    if (!decoded) return decoded.error();
+    buffers[i].decoded = std::move(decoded).value();
+    buffers[i].bytes = buffers[i].decoded;
+  }
+  return buffers;
+}
+
+std::uint64_t memoryLimit(Bytes file, const Resources& resources) {
+  std::uint64_t bytes = file.size();
+  for (const auto& resource : resources) bytes += resource.second.size();
+  return 8 * bytes + (std::uint64_t{64} << 20);
 }
 
 }  // namespace quadmark::io

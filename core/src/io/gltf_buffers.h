@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the bytes of a glTF buffer come from: the GLB's BIN chunk, a resource of the caller, or a data: URI.
+// Where the bytes of a glTF buffer come from: the GLB's BIN chunk, a resource of the caller, a data: URI, or a decoder.
 #pragma once
 
 #include "gltf_container.h"
@@ -9,10 +9,11 @@
 namespace quadmark::io {
 
 struct BufferPlace {
-  enum class Source : std::uint8_t { absent, bin, resource, dataUri };
+  enum class Source : std::uint8_t { absent, bin, resource, dataUri, meshopt };
   Source source = Source::absent;
-  std::string key;  ///< of a resource: how the caller's map names it
-  FileSpan uri;     ///< of a data: URI, between its quotes
+  std::string key;        ///< of a resource: how the caller's map names it
+  FileSpan uri;           ///< of a data: URI, between its quotes
+  MeshoptSource meshopt;  ///< of a decoded view
   std::uint64_t byteLength = 0;
 };
 
@@ -22,13 +23,23 @@ struct BufferBytes {
   Bytes bytes;
 };
 
-/// Finds the sources of the buffers that triangles need; the others stay absent.
+/// Finds the sources of the buffers that triangles need, compressed ones included; the others stay absent.
 /// Fails with badFile for a buffer without data, or whose resource the caller has not given.
 Result<std::vector<BufferPlace>> placeBuffers(const GltfDocument& document, const GltfContainer& container, Bytes file,
                                               const Resources& resources);
 
-/// Gives a buffer's bytes: byteLength or, with padding, more. Fails with badFile when there are fewer.
+/// Gives the bytes of a buffer of the file: byteLength or, with padding, more. Fails with badFile when there are fewer.
 Result<BufferBytes> openBuffer(const BufferPlace& place, std::size_t index, const GltfContainer& container, Bytes file,
                                const Resources& resources);
+
+/// Opens the buffers that are wanted and not absent, and decodes those that are compressed.
+/// @param wanted  one per buffer.
+/// @return one entry per buffer; besides the wanted ones those that they are decoded from. Fails as openBuffer(), with
+///         badFile for broken compressed data, or tooLarge if decoding would take more than memoryLimit().
+Result<std::vector<BufferBytes>> openBuffers(const std::vector<BufferPlace>& places, const std::vector<bool>& wanted,
+                                             const GltfContainer& container, Bytes file, const Resources& resources);
+
+/// The most that may be allocated for a model at once, whatever it claims: 8 times its bytes and 64 MiB.
+std::uint64_t memoryLimit(Bytes file, const Resources& resources);
 
 }  // namespace quadmark::io

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gltf_document.h"
 
+#include <algorithm>
+
 #include "gltf_fields.h"
 #include "gltf_sections.h"
 
@@ -124,7 +126,50 @@ Status readAccessors(const GltfSections& sections, GltfDocument& document) {
   return status;
 }
 
+/// Reads the extension of a compressed view that is needed, and lets the view refer to a buffer of its decoded bytes.
+Status readCompression(JsonValue extension, std::uint32_t index, std::size_t fileBuffers, GltfDocument& document) {
+  constexpr std::string_view kModes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
+  constexpr std::string_view kFilters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};
+  GltfView& view = document.views[index];
+  FieldReader fields(extension, "bufferView " + number(index) + " " + view.compression);
+  MeshoptSource source;
+  source.view = index;
+  const std::uint64_t buffer = fields.required("buffer", kLargestSize);
+  source.byteOffset = fields.optional("byteOffset", 0, kLargestSize);
+  source.byteLength = fields.required("byteLength", kLargestSize);
+  source.layout.count = fields.required("count", kLargestSize);
+  source.layout.byteStride = static_cast<std::uint32_t>(fields.required("byteStride", 256));
+  const auto choose = [&](const char* name, const auto& choices, std::string_view chosen) -> std::size_t {
+    const auto found = std::find(std::begin(choices), std::end(choices), chosen);
+    if (found == std::end(choices)) fields.fail("has the unknown " + std::string(name) + " " + quoted(chosen));
+    return static_cast<std::size_t>(found - std::begin(choices));
+  };
+  const JsonValue filter = extension.find("filter");
+  source.layout.mode = static_cast<MeshoptMode>(choose("mode", kModes, extension.find("mode").asString()));
+  source.layout.filter = static_cast<MeshoptFilter>(choose("filter", kFilters, filter ? filter.asString() : "NONE"));
+  if (buffer >= fileBuffers) {
+    fields.fail("refers to buffer " + number(buffer) + " of " + number(fileBuffers));
+  } else if (const std::uint64_t length = document.buffers[static_cast<std::size_t>(buffer)].byteLength;
+             source.byteOffset > length || source.byteLength > length - source.byteOffset) {
+    fields.fail("exceeds buffer " + number(buffer) + " (" + number(length) + " bytes)");
+  }
+  const std::uint64_t decodedBytes = source.layout.count * source.layout.byteStride;
+  if (decodedBytes != view.byteLength) {
+    fields.fail("decodes to " + number(decodedBytes) + " bytes, the view has " + number(view.byteLength));
+  }
+  if (fields.error()) return *fields.error();
+  source.buffer = static_cast<std::uint32_t>(buffer);
+  view.buffer = static_cast<std::uint32_t>(document.buffers.size());
+  view.byteOffset = 0;
+  GltfBuffer decoded;
+  decoded.byteLength = decodedBytes;
+  decoded.meshopt = source;
+  document.buffers.push_back(decoded);
+  return okStatus();
+}
+
 Status readViews(const GltfSections& sections, GltfDocument& document) {
+  const std::size_t fileBuffers = document.buffers.size();
   std::size_t index = 0;
   Status status = okStatus();
   sections.bufferViews.forEachElement([&](JsonValue json) {
@@ -138,19 +183,27 @@ Status readViews(const GltfSections& sections, GltfDocument& document) {
     if (view.byteStride > 252 || view.byteStride % 4 != 0) {
       fields.fail("has the byteStride " + number(view.byteStride) + ", expected a multiple of 4 up to 252");
     }
-    if (buffer >= document.buffers.size()) {
-      fields.fail("refers to buffer " + number(buffer) + " of " + number(document.buffers.size()));
+    if (buffer >= fileBuffers) {
+      fields.fail("refers to buffer " + number(buffer) + " of " + number(fileBuffers));
     } else if (const std::uint64_t length = document.buffers[static_cast<std::size_t>(buffer)].byteLength;
                view.byteOffset > length || view.byteLength > length - view.byteOffset) {
       fields.fail("with byteOffset " + number(view.byteOffset) + " and byteLength " + number(view.byteLength) +
                   " exceeds buffer " + number(buffer) + " (" + number(length) + " bytes)");
     }
+    JsonValue compression;
     for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-      if (json.find("extensions").find(name)) view.compression = name;
+      const JsonValue extension = json.find("extensions").find(name);
+      if (!extension) continue;
+      view.compression = name;
+      compression = extension;
     }
     if (!fields.error()) view.buffer = static_cast<std::uint32_t>(buffer);
-    // A compressed view is refused by its extension's name later; its buffer may well be a placeholder.
-    if (fields.error() && view.needed && view.compression.empty() && status) status = *fields.error();
+    if (!view.needed || !status) return;
+    if (fields.error()) {
+      status = *fields.error();
+    } else if (compression) {
+      status = readCompression(compression, static_cast<std::uint32_t>(index - 1), fileBuffers, document);
+    }
   });
   return status;
 }
@@ -192,13 +245,10 @@ void readBuffers(const GltfSections& sections, GltfDocument& document) {
 }
 
 /// What this version can do with the accessors that triangles need, and whether they stay inside their views.
-Status checkElements(const GltfDocument& document, std::uint32_t index, const std::string& what) {
+Status checkElements(const GltfDocument& document, std::uint32_t index) {
   const GltfAccessor& accessor = document.accessors[index];
   const GltfView& view = document.views[accessor.view];
   const std::string place = "accessor " + number(index);
-  if (!view.compression.empty()) {
-    return unsupportedFile(what + " (" + place + "): " + view.compression + " is not supported by this version");
-  }
   if (accessor.count == 0) return badFile(place + ": count is 0");
   const std::uint64_t elementBytes = accessor.elementBytes();
   const std::uint64_t stride = view.byteStride == 0 ? elementBytes : view.byteStride;
@@ -226,7 +276,7 @@ Status checkTriangles(const GltfDocument& document, const GltfPrimitive& primiti
     return badFile(what + place + ": is not a VEC3 of floats");
   }
   if (position.view == kNone) return unsupportedFile(what + place + ": accessors without bufferView are not supported");
-  if (Status status = checkElements(document, primitive.position, what); !status) return status;
+  if (Status status = checkElements(document, primitive.position); !status) return status;
 
   if (primitive.indices == kNone) return okStatus();
   const GltfAccessor& indices = document.accessors[primitive.indices];
@@ -240,7 +290,7 @@ Status checkTriangles(const GltfDocument& document, const GltfPrimitive& primiti
   if (stride != 0 && stride != indices.elementBytes()) {
     return unsupportedFile(indicesPlace + ": indices with a byteStride are not supported");
   }
-  return checkElements(document, primitive.indices, primitive.place() + " indices");
+  return checkElements(document, primitive.indices);
 }
 
 }  // namespace

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bytes.h"
 #include "json_text.h"
+#include "meshopt.h"
 
 namespace quadmark::io {
 
@@ -20,17 +22,27 @@ struct FileSpan {
   [[nodiscard]] bool empty() const { return begin == end; }
 };
 
+/// What EXT_meshopt_compression or KHR_meshopt_compression says about a bufferView.
+struct MeshoptSource {
+  std::uint32_t view = 0;  ///< the view that it decodes to
+  std::uint32_t buffer = 0;
+  std::uint64_t byteOffset = 0, byteLength = 0;  ///< of the stream in that buffer
+  MeshoptLayout layout;
+};
+
 struct GltfBuffer {
   std::uint64_t byteLength = 0;
   bool hasUri = false;  ///< without: the GLB's BIN chunk if it is buffer 0, else no data
   FileSpan uri;         ///< as spelled between the quotes
+  /// Set for a buffer that is none of the file's but stands for a decoded view. Such buffers follow the file's own.
+  std::optional<MeshoptSource> meshopt;
 };
 
 struct GltfView {
   std::uint32_t buffer = kNone;  ///< kNone also for a view that is broken but that no position needs
   std::uint64_t byteOffset = 0, byteLength = 0;
   std::uint32_t byteStride = 0;  ///< 0: tightly packed
-  std::string compression;       ///< name of the extension that compresses it, or empty
+  std::string compression;       ///< name of the extension that compresses it, or empty; if needed, it is decoded
   bool needed = false;           ///< by triangles: then it is flawless
 };
 

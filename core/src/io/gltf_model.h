@@ -27,7 +27,8 @@ class GltfModel final : public Model {
   };
 
   Status readPositions(const std::vector<BufferBytes>& buffers);
-  Status readFaces(const GltfDocument& document, const std::vector<BufferBytes>& buffers, std::uint64_t totalBytes);
+  Status readFaces(const GltfDocument& document, const std::vector<BufferBytes>& buffers, std::uint64_t totalBytes,
+                   std::uint64_t memoryLimit);
   void readGroups(const GltfDocument& document);
 
   GltfContainer container_;

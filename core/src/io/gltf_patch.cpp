@@ -3,6 +3,7 @@
 
 #include "allowed_spans.h"
 #include "data_uri.h"
+#include "gltf_decompress.h"
 #include "gltf_edits.h"
 #include "gltf_model.h"
 #include "number_text.h"
@@ -76,7 +77,8 @@ Extent newExtent(std::span<const double> positions, std::uint64_t firstVertex, s
 }
 
 /// Edits for one min or max array. A bound whose true value stays keeps its spelling, even a wrong one.
-Status editBound(Bytes file, FileSpan span, const float (&before)[3], const float (&after)[3], JsonEdits& edits) {
+/// @param before  null: the data was compressed, and bounds that nobody could check become true.
+Status editBound(Bytes file, FileSpan span, const float* before, const float (&after)[3], JsonEdits& edits) {
   if (span.empty()) return okStatus();
   if (span.end > file.size()) return notTheFile("the JSON text differs");
   const Result<JsonValue> array = parseJson(textAt(file, span));
@@ -86,7 +88,8 @@ Status editBound(Bytes file, FileSpan span, const float (&before)[3], const floa
   array->forEachElement([&](JsonValue element) {
     const int a = axis++;
     const std::optional<float> declared = parseFloat(element.text());
-    if (before[a] == after[a] || !declared || *declared == after[a]) return;
+    const bool stays = before != nullptr && before[a] == after[a];
+    if (stays || !declared || *declared == after[a]) return;
     edits.replace(element.text(), formatShortest(after[a]));
   });
   return okStatus();
@@ -105,29 +108,48 @@ Result<PatchedFile> GltfModel::patch(std::span<const std::uint8_t> file, const R
   PatchedFile patched;
   Result<GltfEdits> edits = GltfEdits::of(file, container_);
   if (!edits) return notTheFile("the JSON text differs");
+  Decompression decompression(*edits);
   std::vector<std::vector<const PositionArray*>> arraysOf(buffers_.size());
   std::vector<std::vector<const Bounds*>> boundsOf(buffers_.size());
   for (const PositionArray& array : positions_.arrays) arraysOf[array.buffer].push_back(&array);
   for (const Bounds& bounds : bounds_) boundsOf[positions_.arrays[bounds.array].buffer].push_back(&bounds);
+  std::vector<bool> wanted(buffers_.size());
+  for (std::size_t i = 0; i < buffers_.size(); ++i) wanted[i] = !arraysOf[i].empty();
+  const Result<std::vector<BufferBytes>> buffers = openBuffers(buffers_, wanted, container_, file, resources);
+  if (!buffers) return buffers.error();
   for (std::size_t i = 0; i < buffers_.size(); ++i) {
     if (arraysOf[i].empty()) continue;
-    const Result<BufferBytes> before = openBuffer(buffers_[i], i, container_, file, resources);
-    if (!before) return before.error();
-    if (Status status = checkArrays(arraysOf[i], before->bytes); !status) return status.error();
+    const Bytes before = (*buffers)[i].bytes;
+    if (Status status = checkArrays(arraysOf[i], before); !status) return status.error();
+    const bool compressed = buffers_[i].source == BufferPlace::Source::meshopt;
+    std::vector<std::uint8_t> after;
+    std::uint64_t changedBytes = 0;
+    if (buffers_[i].source != BufferPlace::Source::bin) {
+      after.assign(before.begin(), before.end());
+      const Result<std::uint64_t> changed = writeArrays(arraysOf[i], positions, before, after);
+      if (!changed) return changed.error();
+      if (*changed == 0) continue;
+      changedBytes = *changed;
+    }
     for (const Bounds* bounds : boundsOf[i]) {
-      const Extent old =
-          storedExtent(before->bytes, positions_.arrays[bounds->array], bounds->firstVertex, bounds->count);
+      const Extent old = storedExtent(before, positions_.arrays[bounds->array], bounds->firstVertex, bounds->count);
       const Extent now = newExtent(positions, bounds->firstVertex, bounds->count);
-      if (Status status = editBound(file, bounds->min, old.low, now.low, edits->json()); !status) return status.error();
-      if (Status status = editBound(file, bounds->max, old.high, now.high, edits->json()); !status) return status.error();
+      for (const bool low : {true, false}) {
+        const Status status = editBound(file, low ? bounds->min : bounds->max,
+                                        compressed ? nullptr
+                                        : low      ? old.low
+                                                   : old.high,
+                                        low ? now.low : now.high, edits->json());
+        if (!status) return status.error();
+      }
     }
     if (buffers_[i].source == BufferPlace::Source::bin) continue;
-    std::vector<std::uint8_t> after(before->bytes.begin(), before->bytes.end());
-    const Result<std::uint64_t> changed = writeArrays(arraysOf[i], positions, before->bytes, after);
-    if (!changed) return changed.error();
-    if (*changed == 0) continue;
+    if (compressed) {
+      decompression.replaceView(buffers_[i].meshopt.view, after);
+      continue;
+    }
     if (buffers_[i].source == BufferPlace::Source::resource) {
-      patched.bytesChanged += *changed;
+      patched.bytesChanged += changedBytes;
       patched.resources[buffers_[i].key] = std::move(after);
       continue;
     }
@@ -139,6 +161,8 @@ Result<PatchedFile> GltfModel::patch(std::span<const std::uint8_t> file, const R
       return Error{ErrorCode::internal, "self-check: " + name + " decodes differently"};
     edits->replace(buffers_[i].uri, std::move(uri).value());
   }
+
+  patched.warnings = decompression.finish();
 
   // 2. Assembly, then the BIN chunk in place.
   Result<AssembledGltf> assembled = edits->assemble();

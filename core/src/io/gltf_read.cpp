@@ -129,7 +129,7 @@ Status GltfModel::readPositions(const std::vector<BufferBytes>& buffers) {
 }
 
 Status GltfModel::readFaces(const GltfDocument& document, const std::vector<BufferBytes>& buffers,
-                            std::uint64_t totalBytes) {
+                            std::uint64_t totalBytes, std::uint64_t memoryLimit) {
   std::vector<FaceSource> sources;
   std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> seen;  // the same faces twice say nothing new
   std::uint64_t corners = 0;
@@ -157,7 +157,8 @@ Status GltfModel::readFaces(const GltfDocument& document, const std::vector<Buff
   }
   // Accessors may overlap, so a small file could ask for any number of faces. Sane files stay below 3 corners per byte.
   constexpr std::uint64_t kMostCornersPerByte = 4;
-  if (corners > FaceCollector::kLargestCornerCount || corners / kMostCornersPerByte > totalBytes) {
+  if (corners > FaceCollector::kLargestCornerCount || corners / kMostCornersPerByte > totalBytes ||
+      corners > memoryLimit / sizeof(std::uint32_t)) {
     return tooLarge("glTF: primitives reuse the same data for " + std::to_string(corners) + " triangle corners");
   }
   mesh_.faceVertices.reserve(static_cast<std::size_t>(corners));
@@ -235,22 +236,28 @@ Status GltfModel::read(Bytes file, const Resources& resources) {
   if (!positions_.conflict.empty())
     info_.warnings.push_back(positions_.conflict + "; marking this file will be refused");
 
-  std::vector<BufferBytes> buffers(buffers_.size());
+  Result<std::vector<BufferBytes>> opened =
+      openBuffers(buffers_, std::vector<bool>(buffers_.size(), true), container_, file, resources);
+  if (!opened) return opened.error();
+  const std::vector<BufferBytes> buffers = std::move(opened).value();
   std::uint64_t totalBytes = file.size();
   for (std::size_t i = 0; i < buffers.size(); ++i) {
-    if (buffers_[i].source == BufferPlace::Source::absent) continue;
-    Result<BufferBytes> buffer = openBuffer(buffers_[i], i, container_, file, resources);
-    if (!buffer) return buffer.error();
-    buffers[i] = std::move(buffer).value();
-    if (buffers_[i].source == BufferPlace::Source::resource) totalBytes += buffers[i].bytes.size();
+    const bool inFile =
+        buffers_[i].source == BufferPlace::Source::bin || buffers_[i].source == BufferPlace::Source::dataUri;
+    if (!inFile) totalBytes += buffers[i].bytes.size();
   }
   std::uint64_t windowed = 0;
   for (const PositionWindow& window : positions_.windows) windowed += window.count;
   if (windowed > totalBytes) return tooLarge("glTF: accessors reuse the same positions too often");
+  const std::uint64_t limit = memoryLimit(file, resources);
+  if (positions_.vertexCount > limit / (3 * sizeof(double))) {
+    return tooLarge("glTF: " + std::to_string(positions_.vertexCount) +
+                    " vertices are too many for a file of this size");
+  }
   if (Status status = readPositions(buffers); !status) return status;
 
   // 3. Faces and groups.
-  if (Status status = readFaces(document, buffers, totalBytes); !status) return status;
+  if (Status status = readFaces(document, buffers, totalBytes, limit); !status) return status;
   if (mesh_.faceCount() == 0) return badMesh("glTF: the file has no triangles");
   readGroups(document);
   if (boundingDiagonal(mesh_) == 0) return badMesh("glTF: all used vertices are at one point");

@@ -30,6 +30,7 @@ struct PatchedFile {
   /// Bytes that differ from the input, main file and resources together; where a number's text got longer or shorter,
   /// the difference in length counts too.
   std::uint64_t bytesChanged = 0;
+  std::vector<std::string> warnings;  ///< what had to be changed besides positions, as sentences
 };
 
 /// Facts about the file for reports, each a plain sentence fragment or number.
@@ -73,7 +74,7 @@ class Model {
 
   /// Writes new positions into a copy of the original bytes; nothing outside position components and (glTF) the text
   /// of those accessors' min / max changes. A component whose value is unchanged keeps its bytes, in text files its
-  /// spelling too.
+  /// spelling too. Compressed glTF positions that change become plain data appended to the file, which the warnings say.
   /// @param file, resources  the same bytes that were read.
   /// @param positions        3 per vertex of mesh(), already representable in the file's precision.
   /// @return the new file. Fails with badOption (positions of another number or precision, or not the bytes that were
