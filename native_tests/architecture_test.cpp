@@ -19,8 +19,7 @@ std::string partOf(const std::string& stem) {
   static const std::map<std::string, std::string> parts = {
       {"embedder", "embed"},         {"ring_sets", "cells"},     {"hausdorff", "metrics"},
       {"point_triangle", "metrics"}, {"key_file", "key_file"},   {"surface_distance", "metrics"},
-      {"exact_math", "exact_math"},  {"stb_image", "stb_image"}, {"stb_image_write", "stb_image"},
-      {"tiny_gltf", "tiny_gltf"}};
+      {"exact_math", "exact_math"},  {"stb_image", "stb_image"}, {"stb_image_write", "stb_image"}};
   const auto found = parts.find(stem);
   return found != parts.end() ? found->second : stem.substr(0, stem.find('_'));
 }
@@ -76,19 +75,22 @@ const std::map<std::string, std::set<std::string>>& allowed() {
   static const std::set<std::string> everything = {"result", "mesh",   "random",    "prf",    "exact_math", "base64",
                                                    "key",    "image",  "adjacency", "quad",   "digits",     "payload",
                                                    "cells",  "purity", "verdict",   "embed",  "extract",    "metrics",
-                                                   "io",     "report", "quadmark",  "robust", "vec3",       "trig"};
+                                                   "io",     "report", "quadmark",  "robust", "vec3",       "trig",
+                                                   "json"};
   static const std::map<std::string, std::set<std::string>> rules = {
       {"result", {}},
       {"random", {}},
       {"prf", {}},
       {"exact_math", {}},
       {"base64", {}},
+      {"number", {}},
+      {"json", {"result", "number"}},
       {"quad", {}},
       {"mesh", {"result"}},
       {"stb", {"stb_image"}},
       {"image", {"result", "stb"}},
       {"key", {"result"}},
-      {"key_file", {"key", "base64"}},
+      {"key_file", {"key", "base64", "json", "number"}},
       {"adjacency", {"mesh"}},
       {"digits", {"key"}},
       {"payload", {"key", "prf"}},

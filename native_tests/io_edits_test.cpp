@@ -12,12 +12,11 @@ namespace {
 using io::GltfContainer;
 using io::GltfEdits;
 using io::JsonEdits;
-using io::JsonValue;
 
 /// The text after `edit(edits, root)`.
 template <class Edit>
 std::string edited(const std::string& text, const Edit& edit) {
-  const Result<JsonValue> root = io::parseJson(text);
+  const Result<JsonValue> root = parseJson(text);
   EXPECT_TRUE(root.ok());
   JsonEdits edits(text);
   edit(edits, *root);
@@ -64,7 +63,7 @@ TEST(JsonEdits, RemoveWhateverItemsTogetherWithTheirCommas) {
       for (unsigned i = 0; i < 5; ++i) {
         if (i == 4 ? adds : (removed >> i & 1) == 0) expected.push_back(i);
       }
-      const Result<JsonValue> parsed = io::parseJson(out);
+      const Result<JsonValue> parsed = parseJson(out);
       ASSERT_TRUE(parsed.ok());
       parsed->forEachElement([&](JsonValue value) { found.push_back(value.asUnsigned().value_or(99)); });
       EXPECT_EQ(found, expected);
@@ -143,7 +142,7 @@ Appended append(const FileBytes& file, const FileBytes& data) {
   EXPECT_TRUE(now.ok()) << now.error().message;
   out.container = *now;
   EXPECT_EQ(assembled->binBegin, now->hasBin ? now->binBegin : 0);
-  const Result<JsonValue> root = io::parseJson(out.container.json(out.bytes));
+  const Result<JsonValue> root = parseJson(out.container.json(out.bytes));
   EXPECT_TRUE(root.ok());
   out.root = *root;
   return out;

@@ -13,7 +13,7 @@ namespace {
 /// Everything a corner of a triangle reads, by primitive: the bytes of all attributes and morph targets.
 std::vector<std::string> cornerData(const FileBytes& file, const Resources& resources) {
   const io::GltfContainer container = *io::openGltf(file);
-  const io::JsonValue root = *io::parseJson(container.json(file));
+  const JsonValue root = *parseJson(container.json(file));
   const io::GltfDocument document = *io::readGltfDocument(container.json(file), container.jsonBegin);
   const auto bytesAt = [&](std::uint64_t accessorIndex, std::uint64_t element) {
     const io::GltfAccessor& accessor = document.accessors.at(accessorIndex);
@@ -28,16 +28,16 @@ std::vector<std::string> cornerData(const FileBytes& file, const Resources& reso
     return bytes.subspan(static_cast<std::size_t>(begin), accessor.elementBytes());
   };
   std::vector<std::string> corners;
-  root.find("meshes").forEachElement([&](io::JsonValue mesh) {
-    mesh.find("primitives").forEachElement([&](io::JsonValue primitive) {
+  root.find("meshes").forEachElement([&](JsonValue mesh) {
+    mesh.find("primitives").forEachElement([&](JsonValue primitive) {
       const std::uint64_t indices = *primitive.find("indices").asUnsigned();
       for (std::uint64_t i = 0; i < document.accessors.at(indices).count; ++i) {
         const io::Bytes raw = bytesAt(indices, i);
         std::uint64_t vertex = 0;
         for (std::size_t k = raw.size(); k-- > 0;) vertex = vertex << 8 | raw[k];
         std::string corner;
-        const auto add = [&](io::JsonValue set) {
-          set.forEachMember([&](std::string_view name, io::JsonValue accessor) {
+        const auto add = [&](JsonValue set) {
+          set.forEachMember([&](std::string_view name, JsonValue accessor) {
             corner += std::string(name) + "=" + std::string(io::asText(bytesAt(*accessor.asUnsigned(), vertex))) + ";";
           });
         };

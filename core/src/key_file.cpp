@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The key file: JSON to Key and back.
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "base64.h"
+#include "json_text.h"
+#include "json_writer.h"
+#include "number_text.h"
 #include "quadmark/key.h"
 
 namespace quadmark {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kKeyVersion = 1;
 
@@ -18,76 +18,71 @@ Error badKey(const std::string& message) { return {ErrorCode::badKey, "key file:
 // Readers remember the first problem, so that a caller can read all members and ask once.
 class Members {
  public:
-  explicit Members(const Json& object) : object_(object) {}
+  explicit Members(JsonValue object) : object_(object) {}
 
   void integer(const char* name, auto& out, bool required = false) {
-    const Json* member = find(name, required);
-    if (member == nullptr) return;
-    if (!member->is_number_integer() || *member < -1000000 || *member > 1000000) {
+    const JsonValue member = find(name, required);
+    if (!member) return;
+    const auto number = member.kind() == JsonValue::Kind::number ? parseInteger(member.text()) : std::nullopt;
+    if (!number || *number < -1000000 || *number > 1000000)
       fail(name, "is not a small integer");
-    } else {
-      out = member->get<std::remove_reference_t<decltype(out)>>();
-    }
+    else
+      out = static_cast<std::remove_reference_t<decltype(out)>>(*number);
   }
 
   void number(const char* name, double& out) {
-    const Json* member = find(name, false);
-    if (member == nullptr) return;
-    if (!member->is_number())
+    const JsonValue member = find(name, false);
+    if (!member) return;
+    const auto number = member.kind() == JsonValue::Kind::number ? parseDouble(member.text()) : std::nullopt;
+    if (!number)
       fail(name, "is not a number");
     else
-      out = member->get<double>();
+      out = *number;
   }
 
   void boolean(const char* name, bool& out) {
-    const Json* member = find(name, false);
-    if (member == nullptr) return;
-    if (!member->is_boolean())
+    const JsonValue member = find(name, false);
+    if (!member) return;
+    if (member.kind() != JsonValue::Kind::boolean)
       fail(name, "is not true or false");
     else
-      out = member->get<bool>();
+      out = member.text() == "true";
   }
 
   void text(const char* name, std::string& out, bool required = false) {
-    const Json* member = find(name, required);
-    if (member == nullptr) return;
-    if (!member->is_string())
+    const JsonValue member = find(name, required);
+    if (!member) return;
+    if (!member.isString())
       fail(name, "is not a string");
     else
-      out = member->get<std::string>();
+      out = member.asString();
   }
 
   [[nodiscard]] const std::string& problem() const { return problem_; }
 
  private:
-  const Json* find(const char* name, bool required) {
-    const auto at = object_.find(name);
-    if (at != object_.end()) return &*at;
-    if (required) fail(name, "is missing");
-    return nullptr;
+  JsonValue find(const char* name, bool required) {
+    const JsonValue member = object_.find(name);
+    if (!member && required) fail(name, "is missing");
+    return member;
   }
   void fail(const char* name, const char* what) {
     if (problem_.empty()) problem_ = std::string("\"") + name + "\" " + what;
   }
 
-  const Json& object_;
+  JsonValue object_;
   std::string problem_;
 };
 
 }  // namespace
 
 Result<Key> parseKey(std::string_view text) {
-  // The parser recurses per bracket; a real key file nests two deep.
   if (text.size() > 65536) return badKey("larger than 64 kB");
-  int depth = 0;
-  for (char c : text) {
-    depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
-    if (depth > 32) return badKey("nested too deeply");
-  }
-  const Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded() || !json.is_object()) return badKey("not a JSON object");
+  const Result<JsonValue> json = parseJson(text);
+  if (!json) return badKey(json.error().message);
+  if (!json->isObject()) return badKey("not a JSON object");
 
-  Members top(json);
+  Members top(*json);
   int keyVersion = 0;
   Key key;
   std::string secret;
@@ -107,9 +102,9 @@ Result<Key> parseKey(std::string_view text) {
   if (!bytes || bytes->size() != key.secret.size()) return badKey("\"secret\" is not 32 bytes in base64");
   std::copy(bytes->begin(), bytes->end(), key.secret.begin());
 
-  const auto params = json.find("params");
-  if (params == json.end() || !params->is_object()) return badKey("\"params\" is missing or not an object");
-  Members members(*params);
+  const JsonValue params = json->find("params");
+  if (!params.isObject()) return badKey("\"params\" is missing or not an object");
+  Members members(params);
   PaperParams& p = key.params;
   std::string payload = "image";
   members.integer("L1", p.L1, true);
@@ -133,15 +128,29 @@ Result<Key> parseKey(std::string_view text) {
 
 std::string formatKey(const Key& key) {
   const PaperParams& p = key.params;
-  Json params = {{"L1", p.L1},       {"H1", p.H1},   {"L2", p.L2},     {"H2", p.H2}, {"lambda", p.lambda},
-                 {"tau", p.tau},     {"k", p.k},     {"payload", p.payload == PayloadType::id ? "id" : "image"},
-                 {"width", p.width}, {"height", p.height}};
-  if (p.keyedCells) params["keyedCells"] = true;
-  if (p.scrambleOrder) params["scrambleOrder"] = true;
-  const Json json = {{"quadmark", kKeyVersion}, {"scheme", key.scheme}, {"secret", toBase64(key.secret)},
-                     {"owner", key.owner},      {"params", params}};
-  // Text that is not UTF-8 would make dump() fail: replaced, not thrown.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  JsonWriter json(JsonWriter::Layout::indented);
+  json.beginObject();
+  json.member("quadmark", kKeyVersion);
+  json.member("scheme", key.scheme);
+  json.member("secret", toBase64(key.secret));
+  json.member("owner", key.owner);
+  json.key("params");
+  json.beginObject();
+  json.member("L1", p.L1);
+  json.member("H1", p.H1);
+  json.member("L2", p.L2);
+  json.member("H2", p.H2);
+  json.member("lambda", p.lambda);
+  json.member("tau", p.tau);
+  json.member("k", p.k);
+  json.member("payload", p.payload == PayloadType::id ? "id" : "image");
+  json.member("width", p.width);
+  json.member("height", p.height);
+  if (p.keyedCells) json.member("keyedCells", true);
+  if (p.scrambleOrder) json.member("scrambleOrder", true);
+  json.endObject();
+  json.endObject();
+  return json.text() + "\n";
 }
 
 }  // namespace quadmark

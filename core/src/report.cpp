@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "report.h"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
 #include "base64.h"
+#include "json_writer.h"
 
 namespace quadmark {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-// JSON has no infinity: a mark that moved nothing has no finite SNR.
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string packBits(const std::vector<std::uint8_t>& bits) {
   std::vector<std::uint8_t> bytes((bits.size() + 7) / 8, 0);
@@ -21,14 +14,19 @@ std::string packBits(const std::vector<std::uint8_t>& bits) {
   return toBase64(bytes);
 }
 
-Json nodeList(const std::vector<NodeCells>& nodes) {
-  Json list = Json::array();
-  for (const NodeCells& n : nodes)
-    list.push_back({{"node", n.node}, {"name", n.name}, {"mesh", n.mesh}, {"cells", n.cells}});
-  return list;
+void writeNodes(JsonWriter& json, const std::vector<NodeCells>& nodes) {
+  json.key("perNode");
+  json.beginArray();
+  for (const NodeCells& n : nodes) {
+    json.beginObject();
+    json.member("node", n.node);
+    json.member("name", n.name);
+    json.member("mesh", n.mesh);
+    json.member("cells", n.cells);
+    json.endObject();
+  }
+  json.endArray();
 }
-
-std::string line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 }  // namespace
 
@@ -41,75 +39,102 @@ std::string formatId(std::uint64_t id) {
 std::string formatReport(const EmbedReport& r) {
   const MarkedMesh& m = r.marked;
   const Distortion& d = r.distortion;
-  return line({{"scheme", r.key.scheme},
-               {"cells", m.cells},
-               {"naturalCells", m.naturalCells},
-               {"unusableCells", m.unusableCells},
-               {"capacityBits", m.capacityBits},
-               {"payloadBits", m.payloadBits},
-               {"repeats", m.repeats},
-               {"leastRepeats", m.leastRepeats},
-               {"verified",
-                {{"unattacked", m.guarantees.unattacked},
-                 {"reordered", m.guarantees.reordered},
-                 {"affine", m.guarantees.affine}}},
-               {"distortion",
-                {{"snrDb", finite(d.snrDb)},
-                 {"rmsRel", d.rmsRel},
-                 {"maxRel", d.maxRel},
-                 {"hausdorffRel", d.hausdorffRel},
-                 {"normalPsnrDb", finite(d.normalPsnrDb)},
-                 {"meanNormalDeg", d.meanNormalDeg}}},
-               {"bytesChanged", r.bytesChanged},
-               {"warnings", r.warnings}});
+  JsonWriter json;
+  json.beginObject();
+  json.member("scheme", r.key.scheme);
+  json.member("cells", m.cells);
+  json.member("naturalCells", m.naturalCells);
+  json.member("unusableCells", m.unusableCells);
+  json.member("capacityBits", m.capacityBits);
+  json.member("payloadBits", m.payloadBits);
+  json.member("repeats", m.repeats);
+  json.member("leastRepeats", m.leastRepeats);
+  json.key("verified");
+  json.beginObject();
+  json.member("unattacked", m.guarantees.unattacked);
+  json.member("reordered", m.guarantees.reordered);
+  json.member("affine", m.guarantees.affine);
+  json.endObject();
+  json.key("distortion");
+  json.beginObject();
+  json.member("snrDb", d.snrDb);
+  json.member("rmsRel", d.rmsRel);
+  json.member("maxRel", d.maxRel);
+  json.member("hausdorffRel", d.hausdorffRel);
+  json.member("normalPsnrDb", d.normalPsnrDb);
+  json.member("meanNormalDeg", d.meanNormalDeg);
+  json.endObject();
+  json.member("bytesChanged", r.bytesChanged);
+  json.member("warnings", r.warnings);
+  json.endObject();
+  return json.text();
 }
 
 std::string formatReport(const ExtractReport& r) {
   const Extraction& e = r.extraction;
   std::size_t erased = 0;
   for (std::uint8_t value : e.erased) erased += value;
-  Json json = {{"scheme", r.key.scheme},
-               {"verdict", verdictName(e.verdict)},
-               {"falsePositive", e.falsePositive},
-               {"image",
-                {{"width", r.key.params.width},
-                 {"height", r.key.params.height},
-                 {"bits", packBits(e.bits)},
-                 {"erased", erased},
-                 {"erasedBits", packBits(e.erased)}}},
-               {"id", r.id ? Json(formatId(*r.id)) : Json(nullptr)}};
-  if (r.ber) json["ber"] = *r.ber;
-  json["cells"] = e.cells;
-  json["exactCells"] = e.exactCells;
-  json["erasedCells"] = e.erasedCells;
-  json["piecesRead"] = e.piecesRead;
-  json["passes"] = e.passes;
-  json["perNode"] = nodeList(r.perNode);
-  json["warnings"] = r.warnings;
-  return line(json);
+  JsonWriter json;
+  json.beginObject();
+  json.member("scheme", r.key.scheme);
+  json.member("verdict", verdictName(e.verdict));
+  json.member("falsePositive", e.falsePositive);
+  json.key("image");
+  json.beginObject();
+  json.member("width", r.key.params.width);
+  json.member("height", r.key.params.height);
+  json.member("bits", packBits(e.bits));
+  json.member("erased", erased);
+  json.member("erasedBits", packBits(e.erased));
+  json.endObject();
+  json.key("id");
+  if (r.id) {
+    json.value(formatId(*r.id));
+  } else {
+    json.null();
+  }
+  if (r.ber) json.member("ber", *r.ber);
+  json.member("cells", e.cells);
+  json.member("exactCells", e.exactCells);
+  json.member("erasedCells", e.erasedCells);
+  json.member("piecesRead", e.piecesRead);
+  json.member("passes", e.passes);
+  writeNodes(json, r.perNode);
+  json.member("warnings", r.warnings);
+  json.endObject();
+  return json.text();
 }
 
 std::string formatReport(const InspectReport& r) {
-  Json capacity = Json::array();
-  for (int digits = 1; digits <= 4; ++digits)
-    capacity.push_back({{"digits", digits}, {"bits", std::uint64_t{3} * digits * r.cells}});
-  return line({{"format", fileFormatName(r.info.format)},
-               {"variant", r.info.variant},
-               {"precision", r.mesh.precision == Precision::float32 ? "float32" : "float64"},
-               {"meshes", r.info.meshes},
-               {"primitives", r.info.primitives},
-               {"nodes", r.info.nodes},
-               {"extensionsUsed", r.info.extensionsUsed},
-               {"vertices", r.mesh.vertexCount()},
-               {"weldedVertices", r.weldedVertices},
-               {"faces", r.mesh.faceCount()},
-               {"components", r.components},
-               {"diagonal", r.diagonal},
-               {"cells", r.cells},
-               {"naturalCells", r.naturalCells},
-               {"capacity", capacity},
-               {"perNode", nodeList(r.perNode)},
-               {"warnings", r.info.warnings}});
+  JsonWriter json;
+  json.beginObject();
+  json.member("format", fileFormatName(r.info.format));
+  json.member("variant", r.info.variant);
+  json.member("precision", r.mesh.precision == Precision::float32 ? "float32" : "float64");
+  json.member("meshes", r.info.meshes);
+  json.member("primitives", r.info.primitives);
+  json.member("nodes", r.info.nodes);
+  json.member("extensionsUsed", r.info.extensionsUsed);
+  json.member("vertices", r.mesh.vertexCount());
+  json.member("weldedVertices", r.weldedVertices);
+  json.member("faces", r.mesh.faceCount());
+  json.member("components", r.components);
+  json.member("diagonal", r.diagonal);
+  json.member("cells", r.cells);
+  json.member("naturalCells", r.naturalCells);
+  json.key("capacity");
+  json.beginArray();
+  for (int digits = 1; digits <= 4; ++digits) {
+    json.beginObject();
+    json.member("digits", digits);
+    json.member("bits", std::uint64_t{3} * digits * r.cells);
+    json.endObject();
+  }
+  json.endArray();
+  writeNodes(json, r.perNode);
+  json.member("warnings", r.info.warnings);
+  json.endObject();
+  return json.text();
 }
 
 }  // namespace quadmark

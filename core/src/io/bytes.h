@@ -49,14 +49,6 @@ inline std::string_view asText(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// The value of a hexadecimal digit, or -1.
-inline int hexDigit(char character) {
-  if (character >= '0' && character <= '9') return character - '0';
-  if (character >= 'a' && character <= 'f') return character - 'a' + 10;
-  if (character >= 'A' && character <= 'F') return character - 'A' + 10;
-  return -1;
-}
-
 inline Error badFile(std::string message) {
   return Error{ErrorCode::badFile, std::move(message)};
 }

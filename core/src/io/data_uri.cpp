@@ -2,6 +2,7 @@
 #include "data_uri.h"
 
 #include "json_text.h"
+#include "number_text.h"
 
 namespace quadmark::io {
 namespace {

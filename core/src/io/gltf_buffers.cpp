@@ -2,6 +2,7 @@
 #include "gltf_buffers.h"
 
 #include "data_uri.h"
+#include "number_text.h"
 
 namespace quadmark::io {
 namespace {

@@ -37,12 +37,12 @@ Result<std::vector<std::string>> externalUris(std::span<const std::uint8_t> file
   if (isPly(file) || !isGltf(file)) return uris;
   const Result<io::GltfContainer> container = io::openGltf(file);
   if (!container) return container.error();
-  const Result<io::JsonValue> root = io::parseJson(container->json(file));
+  const Result<JsonValue> root = parseJson(container->json(file));
   if (!root) return root.error();
   std::set<std::string> seen;
-  root->find("buffers").forEachElement([&](io::JsonValue buffer) {
-    const io::JsonValue uri = buffer.find("uri");
-    if (!uri.isString() || io::isDataUri(io::unescapeJson(uri.text().substr(1, 64)))) return;
+  root->find("buffers").forEachElement([&](JsonValue buffer) {
+    const JsonValue uri = buffer.find("uri");
+    if (!uri.isString() || io::isDataUri(unescapeJson(uri.text().substr(1, 64)))) return;
     std::string text = uri.asString();
     if (seen.insert(text).second) uris.push_back(std::move(text));
   });

@@ -7,9 +7,9 @@
 #include <cstring>
 #include <limits>
 
-#include "io/number_text.h"
+#include "number_text.h"
 
-namespace quadmark::io {
+namespace quadmark {
 namespace {
 
 /// Knuth's 64-bit congruential generator; its upper bits are good enough to pick test values.
@@ -149,4 +149,4 @@ TEST(NumberParse, RefusesWhatIsNotADecimalNumber) {
 }
 
 }  // namespace
-}  // namespace quadmark::io
+}  // namespace quadmark

@@ -10,7 +10,7 @@
 
 #include "quadmark/result.h"
 
-namespace quadmark::io {
+namespace quadmark {
 
 /// A value inside a JSON text that parseJson() has accepted, or no value. Two pointers; costs no allocation, and
 /// every look-up scans the text again. The text must outlive it.
@@ -89,4 +89,7 @@ bool keyIs(std::string_view spelled, std::string_view name);
 /// Resolves the escapes of a string as spelled between its quotes, as asString().
 std::string unescapeJson(std::string_view spelled);
 
-}  // namespace quadmark::io
+/// A text as a JSON string with its quotes; broken UTF-8 is replaced by U+FFFD.
+std::string quoteJson(std::string_view text);
+
+}  // namespace quadmark

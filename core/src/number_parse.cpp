@@ -5,7 +5,7 @@
 
 #include "number_text.h"
 
-namespace quadmark::io {
+namespace quadmark {
 namespace {
 
 /// A decimal number taken apart: value = (+-) mantissa * 10^exponent, exact unless `truncated`.
@@ -157,4 +157,4 @@ std::optional<std::int64_t> parseInteger(std::string_view text) {
   return value;
 }
 
-}  // namespace quadmark::io
+}  // namespace quadmark

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "io/json_text.h"
+#include <limits>
 
-namespace quadmark::io {
+#include "json_text.h"
+#include "json_writer.h"
+
+namespace quadmark {
 namespace {
 
 JsonValue parsed(std::string_view text) {
@@ -80,5 +83,58 @@ TEST(Json, DecodesStringsToValidUtf8) {
   EXPECT_EQ(parsed("12").asString(), "");
 }
 
+TEST(JsonWriter, SeparatesAndNestsItsItems) {
+  for (const auto& [layout, expected] :
+       {std::pair{JsonWriter::Layout::oneLine, R"({"a":1,"b":[],"c":[{"d":true},"x y: ",null],"e":{},"f":["g"]})"},
+        std::pair{JsonWriter::Layout::indented,
+                  "{\n  \"a\": 1,\n  \"b\": [],\n  \"c\": [\n    {\n      \"d\": true\n    },\n    \"x y: \",\n    null\n"
+                  "  ],\n  \"e\": {},\n  \"f\": [\n    \"g\"\n  ]\n}"}}) {
+    JsonWriter json(layout);
+    json.beginObject();
+    json.member("a", 1);
+    json.key("b");
+    json.beginArray();
+    json.endArray();
+    json.key("c");
+    json.beginArray();
+    json.beginObject();
+    json.member("d", true);
+    json.endObject();
+    json.value("x y: ");
+    json.null();
+    json.endArray();
+    json.key("e");
+    json.beginObject();
+    json.endObject();
+    json.member("f", std::vector<std::string>{"g"});
+    json.endObject();
+    EXPECT_EQ(json.text(), expected);
+    EXPECT_TRUE(parseJson(json.text()).ok());
+  }
+}
+
+TEST(JsonWriter, SpellsNumbersAsJson) {
+  JsonWriter json;
+  json.beginArray();
+  json.value(0.1);
+  json.value(-3);
+  json.value(std::numeric_limits<std::uint64_t>::max());
+  json.value(1e-7);
+  json.value(std::numeric_limits<double>::infinity());
+  json.value(std::numeric_limits<double>::quiet_NaN());
+  json.endArray();
+  EXPECT_EQ(json.text(), "[0.1,-3,18446744073709551615,1e-7,null,null]");
+}
+
+TEST(JsonWriter, WritesStringsThatReadBackAsTheyWere) {
+  for (const std::string text : {"", "plain", "\"quoted\\\"", "a\tb\nc\x01\x1f", "\xc3\xa9\xf0\x9f\x90\xb0"}) {
+    const std::string quoted = quoteJson(text);
+    EXPECT_EQ(parsed(quoted).asString(), text);
+    for (const char character : quoted) EXPECT_FALSE(character >= 0 && character < ' ');
+  }
+  EXPECT_EQ(parsed(quoteJson(std::string("\0", 1))).asString(), std::string("\0", 1));
+  EXPECT_EQ(quoteJson("\xff\xc0x\xed\xa0\x80"), "\"\xef\xbf\xbd\xef\xbf\xbdx\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\"");
+}
+
 }  // namespace
-}  // namespace quadmark::io
+}  // namespace quadmark

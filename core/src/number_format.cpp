@@ -3,7 +3,7 @@
 
 #include "number_text.h"
 
-namespace quadmark::io {
+namespace quadmark {
 namespace {
 
 /// An unsigned integer of up to kLimbs * 32 bits, just enough for free-format printing.
@@ -223,4 +223,4 @@ std::string formatShortest(double value) {
   return format<72, 52, 1023>(bits & 0x7fffffffffffffffu, (bits >> 63) != 0);
 }
 
-}  // namespace quadmark::io
+}  // namespace quadmark
