@@ -48,7 +48,9 @@ bool Decompression::isStillUsed(std::string_view extension) const {
 
 std::vector<std::string> Decompression::finish() {
   std::vector<std::string> warnings;
-  for (const auto& [extension, count] : decoded_) {
+  for (const auto& decoded : decoded_) {
+    const std::string& extension = decoded.first;
+    const std::uint64_t count = decoded.second;
     warnings.push_back("the data of " + std::to_string(count) + " bufferView" + (count == 1 ? "" : "s") +
                        " with marked positions is plain now, no longer compressed by " + extension +
                        "; compress the marked file anew if its size matters, with as many bits as before");
