@@ -6,7 +6,6 @@
 
 #include "purity.h"
 #include "quadmark/exact_math.h"
-#include "quadmark/verdict.h"
 
 namespace quadmark {
 namespace {
@@ -314,10 +313,6 @@ class Extractor {
 };
 
 }  // namespace
-
-const char* verdictName(Verdict verdict) {
-  return verdict == Verdict::match ? "match" : verdict == Verdict::none ? "none" : "inconclusive";
-}
 
 Extraction extractMesh(const WeldedMesh& welded, const std::vector<double>& positions, const Rounding& rounding,
                        const Key& key, const ExtractOptions& options) {

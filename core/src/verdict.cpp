@@ -35,11 +35,15 @@ double logMeanExp(double a, double b) {
   return top + exactLog((1 + exactExp(std::min(a, b) - top)) / 2);
 }
 
-double clampProbability(double logProbability) {
-  return logProbability >= 0 ? 1 : std::max(exactExp(std::max(logProbability, -690.7)), 1e-300);
+}  // namespace
+
+const char* verdictName(Verdict verdict) {
+  return verdict == Verdict::match ? "match" : verdict == Verdict::none ? "none" : "inconclusive";
 }
 
-}  // namespace
+double probabilityFromLog(double logProbability) {
+  return logProbability >= 0 ? 1 : std::max(exactExp(std::max(logProbability, -690.7)), 1e-300);
+}
 
 AgreementTest::AgreementTest(std::uint32_t bits)
     : forOne_(kScales.size() * bits, 0), forZero_(forOne_), allAgree_(forOne_), allDiffer_(forOne_), bits_(bits) {}
@@ -68,14 +72,14 @@ double AgreementTest::bound(bool best) const {
   const double top = *std::max_element(logEvidence.begin(), logEvidence.end());
   double sum = 0;
   for (double value : logEvidence) sum += exactExp(value - top);
-  return clampProbability(-(top + exactLog(sum / static_cast<double>(kScales.size()))));
+  return probabilityFromLog(-(top + exactLog(sum / static_cast<double>(kScales.size()))));
 }
 
 double AgreementTest::probability() const { return bound(false); }
 double AgreementTest::bestProbability() const { return bound(true); }
 
 double referenceProbability(std::uint64_t trials, std::uint64_t matches) {
-  return clampProbability(logBinomialTail(trials, matches));
+  return probabilityFromLog(logBinomialTail(trials, matches));
 }
 
 }  // namespace quadmark

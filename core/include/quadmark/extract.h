@@ -13,18 +13,9 @@
 #include "quadmark/digits.h"
 #include "quadmark/key.h"
 #include "quadmark/payload.h"
+#include "quadmark/verdict.h"
 
 namespace quadmark {
-
-enum class Verdict : std::uint8_t { match, none, inconclusive };
-
-/// "match", "none" or "inconclusive".
-[[nodiscard]] const char* verdictName(Verdict verdict);
-
-/// A false-positive probability at or below this is a match.
-inline constexpr double kMatchProbability = 1e-6;
-/// Above kMatchProbability and up to this, the verdict is inconclusive.
-inline constexpr double kDoubtProbability = 1e-4;
 
 /// One reading that the votes are made of.
 struct CellReading {

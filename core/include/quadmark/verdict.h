@@ -8,6 +8,16 @@
 
 namespace quadmark {
 
+enum class Verdict : std::uint8_t { match, none, inconclusive };
+
+/// "match", "none" or "inconclusive".
+[[nodiscard]] const char* verdictName(Verdict verdict);
+
+/// A false-positive probability at or below this is a match.
+inline constexpr double kMatchProbability = 1e-6;
+/// Above kMatchProbability and up to this, the verdict is inconclusive.
+inline constexpr double kDoubtProbability = 1e-4;
+
 /// Evidence from copies of the same bit that agree.
 ///
 /// Null hypothesis: the key is unrelated to the model. Then each unit (all cells with one index and one label) has had
@@ -42,5 +52,8 @@ class AgreementTest {
 
 /// Probability that at least `matches` of `trials` keyed-random bits equal a reference; at least 1e-300.
 [[nodiscard]] double referenceProbability(std::uint64_t trials, std::uint64_t matches);
+
+/// e^x for the logarithm of a probability, kept within [1e-300, 1].
+[[nodiscard]] double probabilityFromLog(double logProbability);
 
 }  // namespace quadmark
