@@ -5,6 +5,7 @@
 #include "io/meshopt.h"
 #include "io_allocations.h"
 #include "io_fixtures.h"
+#include "number_text.h"
 #include "quadmark/random.h"
 
 namespace quadmark::test {
@@ -18,7 +19,7 @@ using io::MeshoptMode;
 FileBytes fromHex(std::string_view text) {
   FileBytes bytes;
   for (std::size_t i = 0; i < text.size(); i += 2) {
-    bytes.push_back(static_cast<std::uint8_t>(16 * io::hexDigit(text[i]) + io::hexDigit(text[i + 1])));
+    bytes.push_back(static_cast<std::uint8_t>(16 * hexDigit(text[i]) + hexDigit(text[i + 1])));
   }
   return bytes;
 }

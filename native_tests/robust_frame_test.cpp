@@ -43,7 +43,7 @@ double shareDiffering(const std::vector<std::uint8_t>& a, const std::vector<std:
   return static_cast<double>(differing) / static_cast<double>(a.size());
 }
 
-TEST(RobustFrame, CarriesIdsAndShortTexts) {
+TEST(RobustPayload, CarriesIdsAndShortTexts) {
   const SchemeKeys keys = keysOf(1);
   for (const Payload& payload : {Payload{std::uint64_t{0}}, Payload{~std::uint64_t{0}}, Payload{std::uint64_t{0x0123456789abcdef}},
                                  Payload{std::string("a")}, Payload{std::string("J\xc3\xbcrgen!")}}) {
@@ -64,7 +64,7 @@ TEST(RobustFrame, CarriesIdsAndShortTexts) {
   }
 }
 
-TEST(RobustFrame, DescribesBodiesOfEverySizeAndRate) {
+TEST(RobustPayload, DescribesBodiesOfEverySizeAndRate) {
   const SchemeKeys keys = keysOf(2);
   Random random(1);
   for (const BodyRate rate : {BodyRate::plain, BodyRate::half, BodyRate::third})
@@ -89,7 +89,7 @@ TEST(RobustFrame, DescribesBodiesOfEverySizeAndRate) {
     }
 }
 
-TEST(RobustFrame, CarriesTextsInBodies) {
+TEST(RobustPayload, CarriesTextsInBodies) {
   const SchemeKeys keys = keysOf(3);
   const std::string text = "Example Studio, chair 42";
   const auto bits = bitsOf(text, BodyRate::third, 0, keys);
@@ -104,7 +104,7 @@ TEST(RobustFrame, CarriesTextsInBodies) {
   EXPECT_EQ(reading.bits, bits->body);
 }
 
-TEST(RobustFrame, RefusesPayloadsItCannotHold) {
+TEST(RobustPayload, RefusesPayloadsItCannotHold) {
   const SchemeKeys keys = keysOf(4);
   const auto refusal = [&](const Payload& payload) {
     const auto bits = bitsOf(payload, BodyRate::half, 1, keys);
@@ -121,7 +121,7 @@ TEST(RobustFrame, RefusesPayloadsItCannotHold) {
             "the image is 2 x 2, scheme robust takes up to 128 x 128");
 }
 
-TEST(RobustFrame, KnowsUtf8) {
+TEST(RobustPayload, KnowsUtf8) {
   for (const char* good : {"a", "\xc2\x80", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"})
     EXPECT_TRUE(isUtf8(good)) << good;
   for (const char* bad : {"\x80", "\xc0\x80", "\xc1\xbf", "\xe0\x9f\xbf", "\xed\xa0\x80", "\xf0\x8f\xbf\xbf",
@@ -129,7 +129,7 @@ TEST(RobustFrame, KnowsUtf8) {
     EXPECT_FALSE(isUtf8(bad)) << bad;
 }
 
-TEST(RobustFrame, AcceptsNoOtherKeysFramesNorDamagedOnes) {
+TEST(RobustPayload, AcceptsNoOtherKeysFramesNorDamagedOnes) {
   const SchemeKeys keys = keysOf(5);
   const std::vector<std::uint8_t> bits = decodedHead(encode(*bitsOf(std::uint64_t{77}, BodyRate::half, 1, keys), keys));
   ASSERT_TRUE(parseFrame(bits, keys));
@@ -148,7 +148,7 @@ TEST(RobustFrame, AcceptsNoOtherKeysFramesNorDamagedOnes) {
 }
 
 // Verifying one ID on a model that carries another must not succeed because the two are alike.
-TEST(RobustFrame, GivesAlikePayloadsUnrelatedCodewords) {
+TEST(RobustPayload, GivesAlikePayloadsUnrelatedCodewords) {
   const SchemeKeys keys = keysOf(7);
   const auto coded = [&](const Payload& payload) { return encode(*bitsOf(payload, BodyRate::half, 1, keys), keys); };
   const CodedPayload reference = coded(std::uint64_t{1000});
@@ -162,7 +162,7 @@ TEST(RobustFrame, GivesAlikePayloadsUnrelatedCodewords) {
   EXPECT_NEAR(shareDiffering(before.body, coded(image).body), 0.5, 0.08);
 }
 
-TEST(RobustFrame, HidesPlainPictures) {
+TEST(RobustPayload, HidesPlainPictures) {
   const SchemeKeys keys = keysOf(8);
   const BitImage white{64, 64, std::vector<std::uint8_t>(4096, 0)};
   for (const BodyRate rate : {BodyRate::plain, BodyRate::half}) {
