@@ -4,9 +4,9 @@
 //   quadmark_speed IN KEY PNG REPEATS     prints one JSON object:
 //   { vertices, fileBytes, embed: {medianMs, minMs, peakBytesPerVertex}, extract: {...} }
 //
-// Reading files is outside the timer. Peak memory is that of a child process that does the one call, less what the same
-// process held before it (program, input file), so it counts everything the call adds, output file included.
-#include <sys/resource.h>
+// Reading files is outside the timer. Peak memory is what a process adds while it does the one call, above what it held
+// before (program, input file): everything counts, the output file included.
+#include <malloc.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -34,30 +34,31 @@ Bytes readFile(const char* path) {
   return bytes;
 }
 
-long peakKilobytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss;
+// A field of /proc/self/status, in bytes.
+long statusBytes(const std::string& field) {
+  std::ifstream stream("/proc/self/status");
+  std::string word;
+  long kilobytes = -1;
+  while (stream >> word)
+    if (word == field + ":") stream >> kilobytes;
+  return 1024 * kilobytes;
 }
 
-long residentKilobytes() {
-  std::ifstream stream("/proc/self/statm");
-  long total = 0, resident = 0;
-  stream >> total >> resident;
-  return resident * (sysconf(_SC_PAGESIZE) / 1024);
-}
-
-// Bytes that `call` needs at its peak, measured in a child so that earlier calls leave no trace.
+// Bytes that `call` needs at its peak. Measured in a child, on its second call: the first one brings the program's own
+// pages in. What is freed is given back at once, so that it neither hides nor adds to what the call takes.
 template <class Call>
 long peakBytes(const Call& call) {
   int pipes[2];
   if (pipe(pipes) != 0) return -1;
   const pid_t child = fork();
   if (child == 0) {
-    // The child starts with its parent's pages; only what it adds counts.
-    const long before = residentKilobytes();
+    mallopt(M_MMAP_THRESHOLD, 1 << 17);
     call();
-    const long added = (peakKilobytes() - before) * 1024;
+    malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << "5\n";  // the peak starts anew
+    const long before = statusBytes("VmRSS");
+    call();
+    const long added = statusBytes("VmHWM") - before;
     const ssize_t written = write(pipes[1], &added, sizeof added);
     _exit(written == sizeof added ? 0 : 1);
   }

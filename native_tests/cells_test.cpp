@@ -13,6 +13,9 @@
 namespace quadmark {
 namespace {
 
+using test::Searched;
+using test::searched;
+
 using Ids = std::array<std::uint32_t, 4>;
 
 Ids sortedIds(const Quad& q) {
@@ -26,10 +29,6 @@ PaperParams paramsWith(double lambda, int k = 1) {
   p.lambda = lambda;
   p.k = k;
   return p;
-}
-
-SearchResult search(const Mesh& mesh, const PaperParams& params) {
-  return searchCells(mesh, weld(mesh), params, boundingDiagonal(mesh), roundingOf(mesh.precision));
 }
 
 // All sets of all neighbourhoods tried one by one.
@@ -109,7 +108,7 @@ TEST(SearchCells, GivesDisjointFlatConvexCellsInsideNeighbourhoods) {
     SCOPED_TRACE(name);
     const WeldedMesh welded = weld(mesh);
     const Rounding rounding = roundingOf(mesh.precision);
-    const SearchResult found = search(mesh, paramsWith(1e-3));
+    const Searched found = searched(mesh, paramsWith(1e-3));
     EXPECT_GT(found.cells.size(), 10u);
     EXPECT_LE(found.naturalCells, found.cells.size());
     std::vector<std::uint8_t> used(welded.vertexCount(), 0);
@@ -148,7 +147,7 @@ TEST(SearchCells, MovesNoVertexFartherThanLambda) {
       SCOPED_TRACE(name);
       const double limit = lambda * boundingDiagonal(mesh);
       const WeldedMesh welded = weld(mesh);
-      const SearchResult found = search(mesh, paramsWith(lambda));
+      const Searched found = searched(mesh, paramsWith(lambda));
       for (std::size_t v = 0; v < welded.positions.size(); v += 3) {
         double moved2 = 0;
         for (int k = 0; k < 3; ++k)
@@ -161,10 +160,10 @@ TEST(SearchCells, MovesNoVertexFartherThanLambda) {
 
 TEST(SearchCells, FindsFewerCellsWithASmallerLambda) {
   const Mesh mesh = lab::sculpture(3000);
-  const std::size_t wide = search(mesh, paramsWith(1e-2)).cells.size(),
-                    usual = search(mesh, paramsWith(1e-3)).cells.size(),
-                    tight = search(mesh, paramsWith(1e-5)).cells.size(),
-                    none = search(mesh, paramsWith(1e-12)).cells.size();
+  const std::size_t wide = searched(mesh, paramsWith(1e-2)).cells.size(),
+                    usual = searched(mesh, paramsWith(1e-3)).cells.size(),
+                    tight = searched(mesh, paramsWith(1e-5)).cells.size(),
+                    none = searched(mesh, paramsWith(1e-12)).cells.size();
   EXPECT_GE(wide, usual);
   EXPECT_GT(usual, tight);
   EXPECT_GT(tight, none);
@@ -173,16 +172,16 @@ TEST(SearchCells, FindsFewerCellsWithASmallerLambda) {
 
 TEST(SearchCells, FindsNaturalCellsOnFlatFaces) {
   const Mesh mesh = lab::flatGrid(12, 12);
-  const SearchResult found = search(mesh, paramsWith(1e-3));
+  const Searched found = searched(mesh, paramsWith(1e-3));
   EXPECT_EQ(found.naturalCells, found.cells.size());
   EXPECT_GT(found.cells.size(), 15u);
   EXPECT_EQ(found.positions, weld(mesh).positions);  // nothing had to move
-  EXPECT_EQ(search(lab::sculpture(1500), paramsWith(1e-3)).naturalCells, 0u);
+  EXPECT_EQ(searched(lab::sculpture(1500), paramsWith(1e-3)).naturalCells, 0u);
 }
 
 TEST(SearchCells, ReachesFartherWithALargerNeighbourhood) {
   const Mesh mesh = lab::polygonMix(5);  // mostly valence 3: rings of four points
-  EXPECT_GT(search(mesh, paramsWith(1e-3, 2)).cells.size(), search(mesh, paramsWith(1e-3, 1)).cells.size());
+  EXPECT_GT(searched(mesh, paramsWith(1e-3, 2)).cells.size(), searched(mesh, paramsWith(1e-3, 1)).cells.size());
 }
 
 TEST(Rounding, IsHalfAUnitOfTheLargestCoordinate) {

@@ -14,10 +14,6 @@ namespace {
 
 using namespace test;
 
-SearchResult search(const Mesh& mesh, const PaperParams& params = {}) {
-  return searchCells(mesh, weld(mesh), params, boundingDiagonal(mesh), roundingOf(mesh.precision));
-}
-
 // Four points of one triangle fan: the rim's first four, the pole far away, so that only the rim forms sets.
 Mesh tent(const std::vector<double>& rim, double height) {
   Mesh mesh;
@@ -55,7 +51,7 @@ TEST(Decisions, D03MeasuresLambdaInBoundingBoxDiagonals) {
   EXPECT_EQ(PaperParams{}.lambda, 1e-3);
   const Mesh mesh = lab::sculpture(1500);
   const Mesh doubled = mapped(mapped(mesh, "S"), "S");  // scaled by 1/4, exact in binary
-  EXPECT_EQ(search(mesh).cells.size(), search(doubled).cells.size());
+  EXPECT_EQ(searched(mesh).cells.size(), searched(doubled).cells.size());
 }
 
 TEST(Decisions, D04CallsSetsCoplanarUpToTheRoundingOfTheirOwnFile) {
@@ -65,7 +61,7 @@ TEST(Decisions, D04CallsSetsCoplanarUpToTheRoundingOfTheirOwnFile) {
   for (const double offset : {0.0, 1e3}) {
     const Mesh tilted =
         lab::affine(lab::flatGrid(12, 12), {0.6, 0.3, 0, offset, 0.1, 0.7, 0, 0, 0.37, -0.41, 1, -offset});
-    const SearchResult found = search(tilted);
+    const Searched found = searched(tilted);
     EXPECT_EQ(found.naturalCells, found.cells.size()) << offset;
     EXPECT_GT(found.cells.size(), 15u);
   }
@@ -73,7 +69,7 @@ TEST(Decisions, D04CallsSetsCoplanarUpToTheRoundingOfTheirOwnFile) {
   Mesh bent = asFloat64(lab::flatGrid(12, 12));
   for (std::size_t v = 0; v < bent.vertexCount(); ++v)
     bent.positions[3 * v + 2] = 1e-5 * static_cast<double>(v * v % 7);
-  EXPECT_LT(search(bent).naturalCells, search(bent).cells.size());
+  EXPECT_LT(searched(bent).naturalCells, searched(bent).cells.size());
 }
 
 TEST(Decisions, D05RejectsThinTrianglesAndFourPointsThatAreNotConvex) {
@@ -93,7 +89,7 @@ TEST(Decisions, D05RejectsThinTrianglesAndFourPointsThatAreNotConvex) {
 TEST(Decisions, D06PrefersTheNaturalSetWithTheLongestDiagonals) {
   // Pole and rim: the rim's six corners are flat, the pole is off their plane. The best of the 15 rim sets wins.
   const Mesh mesh = tent({3, 0, 0, 1, 2, 0, -1, 1, 0, -2, -0.5, 0, -0.5, -2, 0, 2, -2, 0}, 5);
-  const SearchResult found = search(mesh);
+  const Searched found = searched(mesh);
   ASSERT_GE(found.cells.size(), 1u);
   EXPECT_EQ(found.naturalCells, found.cells.size());
   const WeldedMesh welded = weld(mesh);
@@ -112,7 +108,7 @@ TEST(Decisions, D07ConstructsTheSetWithTheLeastProjectionWithinLambda) {
   const Mesh mesh = tent({2, 0, 0, 0, 2, 0.02, -2, 0, 0, 0, -2, 0}, 6);
   PaperParams params;
   params.lambda = 0.01;  // of a diagonal of 8.2
-  const SearchResult found = search(mesh, params);
+  const Searched found = searched(mesh, params);
   ASSERT_EQ(found.cells.size(), 1u);
   EXPECT_EQ(found.naturalCells, 0u);
   const std::set<std::uint32_t> ids = {found.cells[0].a, found.cells[0].b, found.cells[0].c, found.cells[0].d};
@@ -122,7 +118,7 @@ TEST(Decisions, D07ConstructsTheSetWithTheLeastProjectionWithinLambda) {
   for (std::size_t i = 0; i < welded.positions.size(); ++i)
     EXPECT_LE(std::fabs(found.positions[i] - welded.positions[i]), 0.0201);
   params.lambda = 0.001;  // 0.008: not enough to flatten the rim
-  EXPECT_TRUE(search(mesh, params).cells.empty());
+  EXPECT_TRUE(searched(mesh, params).cells.empty());
 }
 
 TEST(Decisions, D07TurnsNoFaceOver) {
@@ -133,7 +129,7 @@ TEST(Decisions, D07TurnsNoFaceOver) {
       PaperParams params;
       params.lambda = lambda;
       const WeldedMesh welded = weld(mesh);
-      const SearchResult found = search(mesh, params);
+      const Searched found = searched(mesh, params);
       // Each cell is built with its surroundings as they then are, so the faces turn step by step: all steps together
       // turn hardly any over.
       std::size_t flipped = 0;
@@ -171,14 +167,14 @@ TEST(Decisions, D08CutsLargeNeighbourhoodsByARuleThatDoesNotSeeTheOrder) {
   EXPECT_LT(reference.size(), 20000u);  // of 521 855 sets of the whole pole
   for (std::uint64_t seed = 1; seed <= 10; ++seed) EXPECT_EQ(sets(lab::reorder(pole, seed)), reference);
   const Mesh huge = lab::fan(20000);  // takes no longer than its vertices ask for
-  EXPECT_LT(search(huge).cells.size(), 20000u);
+  EXPECT_LT(searched(huge).cells.size(), 20000u);
 }
 
 TEST(Decisions, D09LetsUsedVerticesSeedNeighbourhoods) {
   // Some cells of an irregular mesh have no seed but vertices of other cells.
   const Mesh mesh = lab::sculpture(3000);
   const WeldedMesh welded = weld(mesh);
-  const SearchResult found = search(mesh);
+  const Searched found = searched(mesh);
   std::vector<std::uint32_t> cellOf(welded.vertexCount(), kNoVertex);
   for (std::uint32_t i = 0; i < found.cells.size(); ++i)
     for (std::uint32_t v : {found.cells[i].a, found.cells[i].b, found.cells[i].c, found.cells[i].d}) cellOf[v] = i;

@@ -111,8 +111,7 @@ TEST(EmbedMesh, MovesLittleBesidesTheVerticesOfItsCells) {
     MarkedMesh report;
     const Mesh output = marked(mesh, kKey, kBits, &report);
     const WeldedMesh welded = weld(mesh);
-    const SearchResult found =
-        searchCells(mesh, welded, kKey.params, boundingDiagonal(mesh), roundingOf(mesh.precision));
+    const Searched found = searched(mesh, kKey.params);
     std::vector<std::uint8_t> inCell(welded.vertexCount(), 0);
     for (const Quad& q : found.cells)
       for (std::uint32_t v : {q.a, q.b, q.c, q.d}) inCell[v] = 1;

@@ -86,6 +86,16 @@ inline Mesh asFloat64(Mesh mesh) {
   return mesh;
 }
 
+/// The cells that the embedder finds, and the welded positions it leaves.
+struct Searched : SearchResult {
+  std::vector<double> positions;
+};
+inline Searched searched(const Mesh& mesh, const PaperParams& params = {}) {
+  WeldedMesh welded = weld(mesh);
+  SearchResult found = searchCells(mesh, welded, params, boundingDiagonal(mesh), roundingOf(mesh.precision));
+  return {std::move(found), std::move(welded.positions)};
+}
+
 /// Welds a mesh as it stands and reads it.
 inline Extraction readMark(const Mesh& mesh, const Key& key, const ExtractOptions& options = {}) {
   const WeldedMesh welded = weld(mesh);

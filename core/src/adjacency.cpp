@@ -31,13 +31,21 @@ std::vector<std::uint8_t> referencedVertices(const Mesh& mesh) {
   return used;
 }
 
-// Open addressing over vertex indices: 4 bytes a slot, so two million vertices need 16 MB.
+// Open addressing over vertex indices: 4 bytes a slot, so two million vertices need 16 MB. That is far beyond any
+// cache, so callers that know what comes ask for its slot early.
 class PositionTable {
  public:
   explicit PositionTable(std::size_t count) {
     std::size_t capacity = 16;
     while (capacity < 2 * count) capacity *= 2;
     slots_.assign(capacity, kNoVertex);
+  }
+
+  /// How many positions ahead of enter() a caller should call expect().
+  static constexpr std::size_t kAhead = 12;
+
+  void expect(const double* p, std::uint32_t group) const {
+    __builtin_prefetch(&slots_[hashPosition(p, group) & (slots_.size() - 1)]);
   }
 
   // The number under which an equal position of the group stands; `number` after entering it, if there was none.
@@ -65,10 +73,13 @@ void weldPositions(const Mesh& mesh, WeldedMesh& out) {
   out.positions.reserve(3 * count);
   std::vector<std::uint32_t> weldedGroup;
   const bool grouped = !mesh.groups.empty();
+  const auto groupOf = [&](std::size_t v) { return grouped ? mesh.groups[v] : 0; };
   for (std::size_t v = 0; v < count; ++v) {
+    if (const std::size_t next = v + PositionTable::kAhead; next < count)
+      table.expect(&mesh.positions[3 * next], groupOf(next));
     if (!used[v]) continue;
     const double* p = &mesh.positions[3 * v];
-    const std::uint32_t group = grouped ? mesh.groups[v] : 0;
+    const std::uint32_t group = groupOf(v);
     const auto next = static_cast<std::uint32_t>(out.positions.size() / 3);
     out.weldedOf[v] = table.enter(
         p, group, next, [&](std::uint32_t w) { return &out.positions[3 * std::size_t{w}]; },
@@ -98,7 +109,7 @@ void forEachEdge(const Mesh& mesh, const WeldedMesh& welded, const Visit& visit)
 // Every face edge is entered from both ends, so an edge of two faces stands twice; sorting each vertex's short list
 // and compacting in place removes the doubles without a second array.
 void collectEdges(const Mesh& mesh, WeldedMesh& out) {
-  const std::size_t count = out.vertexCount();
+  const std::size_t count = out.positions.size() / 3;
   std::vector<std::uint32_t> cursor(count + 1, 0);
   forEachEdge(mesh, out, [&](std::uint32_t a, std::uint32_t b) {
     ++cursor[a];
@@ -143,8 +154,10 @@ WeldedMesh weld(const Mesh& mesh) {
 bool hasTwins(const std::vector<double>& positions, const std::vector<std::uint32_t>& groups) {
   const std::size_t count = positions.size() / 3;
   PositionTable table(count);
+  const auto groupOf = [&](std::size_t w) { return groups.empty() ? 0 : groups[w]; };
   for (std::size_t v = 0; v < count; ++v) {
-    const auto groupOf = [&](std::uint32_t w) { return groups.empty() ? 0 : groups[w]; };
+    if (const std::size_t next = v + PositionTable::kAhead; next < count)
+      table.expect(&positions[3 * next], groupOf(next));
     const auto number = static_cast<std::uint32_t>(v);
     if (table.enter(&positions[3 * v], groupOf(number), number,
                     [&](std::uint32_t w) { return &positions[3 * std::size_t{w}]; }, groupOf) != number)

@@ -61,12 +61,10 @@ Flattened flatten(const Quad& q, const double* positions) {
 
 class Searcher {
  public:
-  Searcher(const Mesh& mesh, const WeldedMesh& welded, const PaperParams& params, double diagonal,
+  Searcher(const Mesh& mesh, WeldedMesh& welded, const PaperParams& params, double diagonal,
            const Rounding& rounding)
       : mesh_(mesh), welded_(welded), rings_(faceRings(mesh, welded)), params_(params),
-        lambda_(params.lambda * diagonal), rounding_(rounding), used_(welded.vertexCount(), 0) {
-    out_.positions = welded.positions;
-  }
+        lambda_(params.lambda * diagonal), rounding_(rounding), used_(welded.vertexCount(), 0) {}
 
   SearchResult run() {
     for (std::uint32_t v = 0; v < welded_.vertexCount(); ++v) seed(v);
@@ -86,8 +84,8 @@ class Searcher {
     if (!neighbourhood(welded_, v, params_.k, members_)) return;
     std::erase_if(members_, [&](std::uint32_t w) { return used_[w] != 0; });
     if (members_.size() < 4) return;
-    keepNearest(members_, v, out_.positions.data(), kMaxMembersWriting);
-    ring_.load(members_, v, out_.positions.data(), true);
+    keepNearest(members_, v, welded_.positions.data(), kMaxMembersWriting);
+    ring_.load(members_, v, welded_.positions.data(), true);
     Quad quad;
     if (naturalCell(quad)) {
       ++out_.naturalCells;
@@ -112,8 +110,8 @@ class Searcher {
       if (determinant * determinant > 4 * tolerance * tolerance * largest) return;
       const std::uint32_t ids[4] = {ring_.vertex(i), ring_.vertex(j), ring_.vertex(k), ring_.vertex(l)};
       Quad quad;
-      if (!makeQuad(ids, out_.positions.data(), kMinTriangleWriting, quad)) return;
-      if (quad.gap > kExactUnits * rounding_.unit(quad, out_.positions.data())) return;
+      if (!makeQuad(ids, welded_.positions.data(), kMinTriangleWriting, quad)) return;
+      if (quad.gap > kExactUnits * rounding_.unit(quad, welded_.positions.data())) return;
       if (found && !(quad.diagonalSum() > best.diagonalSum())) return;
       best = quad;
       found = true;
@@ -124,7 +122,7 @@ class Searcher {
   // Step (3): the set with the least projection of one of its points onto the plane of the other three, up to lambda
   // (D7). Sets whose flattening would turn a face over are passed over.
   bool construct(Quad& best) {
-    const double* positions = out_.positions.data();
+    const double* positions = welded_.positions.data();
     std::uint32_t refused[kMaxRefusals][4];
     for (int refusals = 0; refusals < kMaxRefusals; ++refusals) {
       double bestH2 = lambda_ * lambda_;
@@ -153,14 +151,14 @@ class Searcher {
       const double* points[4] = {flat.to[0].v, flat.to[1].v, flat.to[2].v, flat.to[3].v};
       if (!makeQuad(points, kMinTriangleWriting, best) || flips(flat)) continue;
       for (std::uint32_t* id : {&best.a, &best.b, &best.c, &best.d}) *id = flat.vertex[*id];
-      for (int i = 0; i < 4; ++i) std::copy(flat.to[i].v, flat.to[i].v + 3, &out_.positions[3 * std::size_t{flat.vertex[i]}]);
+      for (int i = 0; i < 4; ++i) std::copy(flat.to[i].v, flat.to[i].v + 3, &welded_.positions[3 * std::size_t{flat.vertex[i]}]);
       return true;
     }
     return false;
   }
 
   [[nodiscard]] bool flips(const Flattened& flat) const {
-    const double* positions = out_.positions.data();
+    const double* positions = welded_.positions.data();
     for (std::uint32_t vertex : flat.vertex)
       for (std::uint32_t face : rings_.facesOf(vertex)) {
         const Point before = faceNormal(mesh_, welded_, face, [&](std::uint32_t w) { return positions + 3 * std::size_t{w}; });
@@ -176,7 +174,7 @@ class Searcher {
   }
 
   const Mesh& mesh_;
-  const WeldedMesh& welded_;
+  WeldedMesh& welded_;
   const FaceRings rings_;
   const PaperParams& params_;
   const double lambda_;
@@ -189,7 +187,7 @@ class Searcher {
 
 }  // namespace
 
-SearchResult searchCells(const Mesh& mesh, const WeldedMesh& welded, const PaperParams& params, double diagonal,
+SearchResult searchCells(const Mesh& mesh, WeldedMesh& welded, const PaperParams& params, double diagonal,
                          const Rounding& rounding) {
   return Searcher(mesh, welded, params, diagonal, rounding).run();
 }

@@ -41,9 +41,9 @@ Reading PairCodec::read(double ratioA, double ratioB) const {
   out.index = first.code;
   out.prefix1 = first.prefix;
   out.prefix2 = second.prefix;
-  out.residue1 = first.residue;
-  out.residue2 = second.residue;
-  out.chance = chanceOf(first.code, second.code);
+  out.residue1 = static_cast<float>(first.residue);
+  out.residue2 = static_cast<float>(second.residue);
+  out.chance = static_cast<float>(chanceOf(first.code, second.code));
   if (r2 - r1 < coarserCell_) {
     out.state = ReadingState::ambiguousOrder;
   } else if (first.code >= pieces_) {

@@ -25,7 +25,6 @@ Embedder::Embedder(const Mesh& mesh, std::span<const std::uint8_t> bits, const K
 Status Embedder::search() {
   if (!(diagonal_ > 0)) return Error{ErrorCode::badMesh, "the model has no extent: all its vertices coincide"};
   SearchResult found = searchCells(mesh_, welded_, key_.params, diagonal_, rounding_);
-  positions_ = std::move(found.positions);
   report_.naturalCells = found.naturalCells;
   cells_.reserve(found.cells.size());
   cellOf_.assign(welded_.vertexCount(), kNoVertex);
@@ -208,6 +207,7 @@ Result<MarkedMesh> Embedder::run(const MeshProgress& progress) {
   if (Status s = search(); !s) return s.error();
   if (!report("write", 0.4)) return Error{ErrorCode::aborted, "cancelled while writing"};
   if (Status s = assign(); !s) return s.error();
+  padded_.release();
   for (PlannedCell& cell : cells_) writeCell(cell);
   separate();
   if (Status s = verify(progress); !s) return s.error();
@@ -229,7 +229,9 @@ MarkedMesh Embedder::result() {
   out.capacityBits = 3ull * codec_.pieceSlot().digitCount() * out.cells;
   out.repeats = static_cast<double>(out.cells) / static_cast<double>(pieces_.size());
   out.leastRepeats = *std::min_element(copies_.begin(), copies_.end());
-  out.welded = std::move(welded_);
+  out.diagonal = diagonal_;
+  out.welded.weldedOf = std::move(welded_.weldedOf);
+  out.welded.edgeOffsets = std::move(welded_.edgeOffsets);
   return out;
 }
 

@@ -2,6 +2,7 @@
 // Verification after writing (D20): the decoder reads the output, a reordered copy and an affine copy.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "embedder.h"
 #include "quadmark/extract.h"
@@ -76,18 +77,38 @@ void Embedder::repair(const std::vector<std::uint32_t>& bad, const Extraction& r
     if (cells_[cell].piece != kNoPiece && isBad[cells_[cell].piece] != 0) rewrite(cell);
 }
 
-// One check: reads `positions` (connectivity `welded`), repairs if asked to. Returns the number of bad pieces.
-std::size_t Embedder::check(const WeldedMesh& welded, const std::vector<double>& positions, bool mayRepair,
-                            std::uint64_t& salt) {
-  const std::vector<std::uint32_t> bad = badPieces(read(welded, positions));
-  if (mayRepair && !bad.empty()) repair(bad, read(welded, positions, true), salt);
+// Checks the output itself. Returns the number of bad pieces.
+std::size_t Embedder::check(bool mayRepair, std::uint64_t& salt) {
+  const std::vector<std::uint32_t> bad = badPieces(read());
+  if (mayRepair && !bad.empty()) repair(bad, read(true), salt);
   return bad.size();
 }
 
-std::vector<double> Embedder::mapped(const AffineMap& map) const {
-  std::vector<double> out(positions_.size());
-  for (std::size_t v = 0; v < positions_.size(); v += 3) applyRounded(map, &positions_[v], &out[v]);
-  return out;
+// Checks the copy under an affine map. Positions that are float32 in the file are kept as such meanwhile: the copy is
+// the largest thing that the verification needs.
+std::size_t Embedder::checkMapped(const AffineMap& map, bool mayRepair, std::uint64_t& salt) {
+  std::vector<float> kept32;
+  std::vector<double> kept64;
+  const bool narrow = mesh_.precision == Precision::float32;
+  if (narrow)
+    kept32.assign(positions_.begin(), positions_.end());
+  else
+    kept64 = positions_;
+  for (std::size_t v = 0; v < positions_.size(); v += 3) {
+    const double point[3] = {positions_[v], positions_[v + 1], positions_[v + 2]};
+    applyRounded(map, point, &positions_[v]);
+  }
+  const bool separated = std::exchange(separated_, false);  // what is flat in the copy is to be found out
+  Extraction first = read();
+  const std::vector<std::uint32_t> bad = badPieces(first);
+  if (mayRepair && !bad.empty()) first = read(true);
+  if (narrow)
+    positions_.assign(kept32.begin(), kept32.end());
+  else
+    positions_.swap(kept64);
+  separated_ = separated;
+  if (mayRepair && !bad.empty()) repair(bad, first, salt);
+  return bad.size();
 }
 
 // Would a reader of the written file weld the same vertices? Not if rounding has made two of them coincide.
@@ -100,58 +121,64 @@ bool Embedder::weldsAlike() const {
 }
 
 // The decoder sees a file only through its welded mesh, so a file with permuted vertices and faces is the same welded
-// mesh with other numbers. Building it directly saves the second weld and half the memory of a permuted file.
-// Takes the connectivity apart: the last step of the verification.
-bool Embedder::readsReordered() {
-  if (!weldsAlike()) return false;
+// mesh with other numbers. Giving this one other numbers saves the second weld and all the memory of a second mesh.
+void Embedder::renumber() {
   const std::uint32_t count = welded_.vertexCount();
-  WeldedMesh other;
-  std::vector<std::uint32_t> numberOf(count);
-  {
-    // Blocks of 1024 in scattered order, each back to front with a stride: far from the file's order, near in memory.
-    constexpr std::uint32_t kBlock = 1024;
-    std::vector<std::uint32_t> oldOf;
-    oldOf.reserve(count);
-    std::uint32_t blocks = 1;
-    while (blocks < (count + kBlock - 1) / kBlock) blocks *= 2;
-    for (std::uint32_t i = 0; i < blocks; ++i) {
-      const std::uint32_t block = (i * 0x9e3779b1u + 0x7f4a7c15u) & (blocks - 1);  // odd factor: a permutation
-      for (std::uint32_t k = 0; k < kBlock; ++k) {
-        const std::uint64_t at = std::uint64_t{block} * kBlock + ((kBlock - 1 - k) * 397 & (kBlock - 1));
-        if (at < count) oldOf.push_back(static_cast<std::uint32_t>(at));
-      }
+  // Blocks of 1024 in scattered order, each back to front with a stride: far from the file's order, near in memory.
+  constexpr std::uint32_t kBlock = 1024;
+  std::vector<std::uint32_t> oldOf, numberOf(count);
+  oldOf.reserve(count);
+  std::uint32_t blocks = 1;
+  while (blocks < (count + kBlock - 1) / kBlock) blocks *= 2;
+  for (std::uint32_t i = 0; i < blocks; ++i) {
+    const std::uint32_t block = (i * 0x9e3779b1u + 0x7f4a7c15u) & (blocks - 1);  // odd factor: a permutation
+    for (std::uint32_t k = 0; k < kBlock; ++k) {
+      const std::uint64_t at = std::uint64_t{block} * kBlock + ((kBlock - 1 - k) * 397 & (kBlock - 1));
+      if (at < count) oldOf.push_back(static_cast<std::uint32_t>(at));
     }
-    other.positions.reserve(positions_.size());
-    other.edgeOffsets.reserve(std::size_t{count} + 1);
-    other.neighbours.reserve(welded_.neighbours.size());
-    for (std::uint32_t number = 0; number < count; ++number) numberOf[oldOf[number]] = number;
+  }
+  for (std::uint32_t number = 0; number < count; ++number) numberOf[oldOf[number]] = number;
+
+  std::vector<std::uint32_t>().swap(cellOf_);
+  for (PlannedCell& cell : cells_)
+    for (std::uint32_t* v : {&cell.quad.a, &cell.quad.b, &cell.quad.c, &cell.quad.d}) *v = numberOf[*v];
+  for (std::uint32_t& w : welded_.weldedOf)
+    if (w != kNoVertex) w = numberOf[w];
+  {
+    std::vector<double> positions;
+    positions.reserve(positions_.size());
     for (std::uint32_t old : oldOf) {
       const double* p = &positions_[3 * std::size_t{old}];
-      other.positions.insert(other.positions.end(), p, p + 3);
-      other.edgeOffsets.push_back(static_cast<std::uint32_t>(other.neighbours.size()));
-      for (std::uint32_t neighbour : welded_.neighboursOf(old)) other.neighbours.push_back(numberOf[neighbour]);
-      std::sort(other.neighbours.begin() + other.edgeOffsets.back(), other.neighbours.end());
+      positions.insert(positions.end(), p, p + 3);
     }
-    other.edgeOffsets.push_back(static_cast<std::uint32_t>(other.neighbours.size()));
+    positions_.swap(positions);
   }
-  std::vector<std::uint32_t>().swap(numberOf);
-  std::vector<PlannedCell>().swap(cells_);
-  std::vector<std::uint32_t>().swap(cellOf_);
-  return badPieces(read(other, other.positions)).empty();
+  std::vector<std::uint32_t> offsets, neighbours;
+  offsets.reserve(std::size_t{count} + 1);
+  neighbours.reserve(welded_.neighbours.size());
+  for (std::uint32_t old : oldOf) {
+    offsets.push_back(static_cast<std::uint32_t>(neighbours.size()));
+    for (std::uint32_t neighbour : welded_.neighboursOf(old)) neighbours.push_back(numberOf[neighbour]);
+    std::sort(neighbours.begin() + offsets.back(), neighbours.end());
+  }
+  offsets.push_back(static_cast<std::uint32_t>(neighbours.size()));
+  welded_.edgeOffsets.swap(offsets);
+  welded_.neighbours.swap(neighbours);
 }
 
-Extraction Embedder::read(const WeldedMesh& welded, const std::vector<double>& positions, bool keepReadings) const {
+Extraction Embedder::read(bool keepReadings) const {
   ExtractOptions options;
   options.keepReadings = keepReadings;
   options.bitsOnly = true;
-  // Right after separate() the sets that are flat in the output are known: they are the cells.
+  // Right after separate() the sets that are flat in the output are known: they are the cells. Other numbers change
+  // nothing about that: which sets are flat is decided by makeQuad(), whose arithmetic sees positions only.
   std::vector<std::array<std::uint32_t, 4>> sets;
-  if (separated_ && &positions == &positions_) {
+  if (separated_) {
     sets.reserve(cells_.size());
     for (const PlannedCell& cell : cells_) sets.push_back({cell.quad.a, cell.quad.b, cell.quad.c, cell.quad.d});
     options.exactSets = sets;
   }
-  return extractMesh(welded, positions, rounding_, key_, options);
+  return extractMesh(welded_, positions_, rounding_, key_, options);
 }
 
 Status Embedder::verify(const MeshProgress& progress) {
@@ -166,10 +193,10 @@ Status Embedder::verify(const MeshProgress& progress) {
     if (progress && !progress("verify", 0.6 + 0.02 * attempt))
       return Error{ErrorCode::aborted, "cancelled while verifying"};
     const bool mayRepair = attempt + 1 < kAttempts;
-    std::size_t bad = check(welded_, positions_, mayRepair, salt), badAfterMap = 0;
+    std::size_t bad = check(mayRepair, salt), badAfterMap = 0;
     report_.guarantees.unattacked = bad == 0;
     for (const AffineMap& map : maps) {
-      badAfterMap = check(welded_, mapped(map), mayRepair, salt);  // the last map is the combined one
+      badAfterMap = checkMapped(map, mayRepair, salt);  // the last map is the combined one
       bad += badAfterMap;
     }
     report_.guarantees.affine = badAfterMap == 0;
@@ -179,10 +206,14 @@ Status Embedder::verify(const MeshProgress& progress) {
     fewest = std::min(fewest, bad);
   }
   if (fruitless > 0) {
-    report_.guarantees.unattacked = check(welded_, positions_, false, salt) == 0;
-    report_.guarantees.affine = check(welded_, mapped(maps.back()), false, salt) == 0;
+    report_.guarantees.unattacked = check(false, salt) == 0;
+    report_.guarantees.affine = checkMapped(maps.back(), false, salt) == 0;
   }
-  report_.guarantees.reordered = readsReordered();
+  report_.guarantees.reordered = false;
+  if (weldsAlike()) {
+    renumber();
+    report_.guarantees.reordered = badPieces(read()).empty();
+  }
   return okStatus();
 }
 

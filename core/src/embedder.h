@@ -36,6 +36,9 @@ class PadCache {
       : pad_(pad), pieces_(pieces), digits_(digits), entries_(kEntries) {}
   std::uint32_t operator()(std::uint32_t index, std::uint32_t prefix1, std::uint32_t prefix2);
 
+  /// Gives the memory back; nothing may be asked afterwards.
+  void release() { std::vector<Entry>().swap(entries_); }
+
  private:
   static constexpr std::size_t kEntries = 1 << 14;
   struct Entry {
@@ -84,14 +87,12 @@ class Embedder {
   using AffineMap = std::array<double, 9>;  ///< row major, no translation
   [[nodiscard]] static const std::vector<AffineMap>& verificationMaps();
   void applyRounded(const AffineMap& map, const double* point, double* out) const;
-  [[nodiscard]] std::vector<double> mapped(const AffineMap& map) const;
   Status verify(const MeshProgress& progress);
-  std::size_t check(const WeldedMesh& welded, const std::vector<double>& positions, bool mayRepair,
-                    std::uint64_t& salt);
-  [[nodiscard]] bool readsReordered();
+  std::size_t check(bool mayRepair, std::uint64_t& salt);
+  std::size_t checkMapped(const AffineMap& map, bool mayRepair, std::uint64_t& salt);
+  void renumber();
   [[nodiscard]] bool weldsAlike() const;
-  [[nodiscard]] Extraction read(const WeldedMesh& welded, const std::vector<double>& positions,
-                                bool keepReadings = false) const;
+  [[nodiscard]] Extraction read(bool keepReadings = false) const;
   [[nodiscard]] std::vector<std::uint32_t> badPieces(const Extraction& read) const;
   void repair(const std::vector<std::uint32_t>& bad, const Extraction& read, std::uint64_t& salt);
 

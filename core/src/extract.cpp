@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "purity.h"
 #include "quadmark/exact_math.h"
@@ -17,13 +18,12 @@ constexpr double kPassFactor = 8;          // how fast the tolerance rises from 
 constexpr double kTrustedPurity = 0.5;     // vertices of such cells are "used" for later passes
 constexpr double kMaxRepeats = 4;          // identical readings (index, label, piece) count at most this often
 
+// A reading that may vote, or an erasure. Kept small: there is one for every three or four vertices.
 struct Candidate {
   std::uint32_t vertices[4];  ///< a, b, c, d
-  double diagonalSum;
-  float sigma;                ///< what rounding may do to the ratios, standard deviation in digits
-  float purity;
-  int kind;
   Reading reading;
+  float sigma;                ///< what rounding may do to the ratios, standard deviation in digits
+  int kind;                   ///< in the pass's PurityTable
 };
 
 class Extractor {
@@ -62,28 +62,26 @@ class Extractor {
   // Reads all sets whose gap lies in (previous, units] rounding units. False when tau ends the series.
   bool pass(double units, double previous) {
     const double cap = previous == 0 ? 0 : key_.params.tau;
-    std::vector<Candidate> candidates;
+    // A deque: up to one in three vertices, which a growing vector would hold twice for a while.
+    std::deque<Candidate> candidates;
     PurityTable table;
     bool reachedAny = previous == 0;
-    candidates.reserve(welded_.vertexCount() / 4);
     forEachSet({units, cap}, [&](const Quad& quad) {
       const double unit = rounding_.unit(quad, positions_.data()), gapUnits = quad.gap / unit;
       if (gapUnits <= previous) return;
       if (gapUnits > units / 2) reachedAny = true;
       const double digit = std::min(codec_.indexSlot().cellWidth(), codec_.pieceSlot().cellWidth());
       const double sigma = 0.6 * unit / (std::min(quad.lengthAC, quad.lengthBD) * digit);
-      Candidate c{{quad.a, quad.b, quad.c, quad.d}, quad.diagonalSum(), static_cast<float>(sigma), 0, 0,
-                  codec_.read(quad.ratioAC, quad.ratioBD)};
-      if (c.reading.state == ReadingState::outOfRange || c.reading.state == ReadingState::ambiguousOrder) return;
-      if (!pad_.carries(c.reading.prefix1, c.reading.prefix2)) return;
-      c.kind = PurityTable::kind(gapUnits, c.reading);
-      table.add(c.kind, c.reading, quad.ratioAC, quad.ratioBD);
-      candidates.push_back(c);
+      const Reading reading = codec_.read(quad.ratioAC, quad.ratioBD);
+      if (reading.state == ReadingState::outOfRange || reading.state == ReadingState::ambiguousOrder) return;
+      if (!pad_.carries(reading.prefix1, reading.prefix2)) return;
+      const int kind = PurityTable::kind(gapUnits, reading);
+      table.add(kind, reading, quad.ratioAC, quad.ratioBD);
+      candidates.push_back({{quad.a, quad.b, quad.c, quad.d}, reading, static_cast<float>(sigma), kind});
     });
     table.estimate();
     if (previous == 0) excess_ = table.excess();
-    for (Candidate& c : candidates) c.purity = static_cast<float>(table.purity(c.kind));
-    accept(candidates);
+    accept(candidates, table);
     return reachedAny;
   }
 
@@ -99,32 +97,36 @@ class Extractor {
   }
 
   // A vertex belongs to one cell. Where sets compete the purer kind wins, then the longer diagonals (the paper's rule).
-  void accept(std::vector<Candidate>& candidates) {
-    accepted_.reserve(accepted_.size() + candidates.size());
+  void accept(const std::deque<Candidate>& candidates, const PurityTable& table) {
     std::vector<std::uint8_t> claims(welded_.vertexCount(), 0);
-    const auto votes = [](const Candidate& c) {
-      return c.reading.state == ReadingState::ok && c.purity >= kLeastPurity;
+    const auto votes = [&](const Candidate& c) {
+      return c.reading.state == ReadingState::ok && table.purity(c.kind) >= kLeastPurity;
     };
-    for (const Candidate& c : candidates)
-      if (votes(c))
-        for (std::uint32_t v : c.vertices) claims[v] = static_cast<std::uint8_t>(std::min(claims[v] + 1, 2));
-    std::vector<const Candidate*> contested;
+    std::size_t voters = 0;
     for (const Candidate& c : candidates) {
+      if (!votes(c)) continue;
+      ++voters;
+      for (std::uint32_t v : c.vertices) claims[v] = static_cast<std::uint8_t>(std::min(claims[v] + 1, 2));
+    }
+    accepted_.reserve(accepted_.size() + voters);
+    std::vector<Rival> contested;
+    for (const Candidate& c : candidates) {
+      const auto purity = static_cast<float>(table.purity(c.kind));
       if (!votes(c)) {
-        erasure(c);
+        erasure(c, purity);
         continue;
       }
       bool alone = true;
       for (std::uint32_t v : c.vertices) alone = alone && claims[v] == 1;
       if (alone)
-        take(c);
+        take(c, purity);
       else
-        contested.push_back(&c);
+        contested.push_back({purity, diagonalSum(c), &c});
     }
-    std::sort(contested.begin(), contested.end(), [&](const Candidate* x, const Candidate* y) {
-      if (x->purity != y->purity) return x->purity > y->purity;
-      if (x->diagonalSum != y->diagonalSum) return x->diagonalSum > y->diagonalSum;
-      const auto &p = x->vertices, &q = y->vertices;
+    std::sort(contested.begin(), contested.end(), [&](const Rival& x, const Rival& y) {
+      if (x.purity != y.purity) return x.purity > y.purity;
+      if (x.diagonalSum != y.diagonalSum) return x.diagonalSum > y.diagonalSum;
+      const auto &p = x.candidate->vertices, &q = y.candidate->vertices;
       for (int i = 0; i < 4; ++i)
         for (int k = 0; k < 3; ++k) {
           const double a = positions_[3 * std::size_t{p[i]} + k], b = positions_[3 * std::size_t{q[i]} + k];
@@ -133,42 +135,55 @@ class Extractor {
       return std::lexicographical_compare(p, p + 4, q, q + 4);
     });
     std::fill(claims.begin(), claims.end(), std::uint8_t{0});
-    for (const Candidate* c : contested) {
+    for (const Rival& rival : contested) {
       bool free = true;
-      for (std::uint32_t v : c->vertices) free = free && claims[v] == 0;
+      for (std::uint32_t v : rival.candidate->vertices) free = free && claims[v] == 0;
       if (!free) continue;
-      for (std::uint32_t v : c->vertices) claims[v] = 1;
-      take(*c);
+      for (std::uint32_t v : rival.candidate->vertices) claims[v] = 1;
+      take(*rival.candidate, rival.purity);
     }
   }
 
-  void take(const Candidate& c) {
+  // Of sets that share vertices.
+  struct Rival {
+    float purity;
+    double diagonalSum;
+    const Candidate* candidate;
+  };
+
+  [[nodiscard]] double diagonalSum(const Candidate& c) const {
+    Quad quad;
+    (void)makeQuad(c.vertices, positions_.data(), kMinTriangleReading, quad);  // it was one before
+    return quad.diagonalSum();
+  }
+
+  void take(const Candidate& c, float purity) {
     const Reading& r = c.reading;
     // Near the edge of its digit cell a reading may belong to the neighbour: the more so, the more rounding alone may
     // have moved it. z is the distance to the edge in standard deviations, the quartic a stand-in for the normal tail.
     const double off = std::max(std::fabs(r.residue1), std::fabs(r.residue2));
     const double z = 1 + (0.5 - off) / std::max(double{c.sigma}, 1e-3);
-    const double sound = double{c.purity} * (1 - 2 / (1 + z * z * z * z));
+    const double sound = double{purity} * (1 - 2 / (1 + z * z * z * z));
     const double central = off <= 0.25 ? 1 : std::max(0.05, (0.5 - off) / 0.25);
     const double weight = exactLog((1 + sound) / (1 - sound)) * central;
-    accepted_.push_back({label(r), r.index, r.piece ^ pad_(r.index, r.prefix1, r.prefix2), c.purity,
+    accepted_.push_back({label(r), r.index, r.piece ^ pad_(r.index, r.prefix1, r.prefix2), purity,
                          static_cast<float>(weight)});
-    if (c.purity >= kTrustedPurity) {
+    if (purity >= kTrustedPurity) {
       if (used_.empty()) used_.assign(welded_.vertexCount(), 0);
       for (std::uint32_t v : c.vertices) used_[v] = 1;
     }
-    keep(c, static_cast<float>(weight));
+    keep(c, purity, static_cast<float>(weight));
   }
 
-  void erasure(const Candidate& c) {
+  void erasure(const Candidate& c, float purity) {
     if (c.reading.state != ReadingState::ok) ++out_.erasedCells;
-    keep(c, 0);
+    keep(c, purity, 0);
   }
 
-  void keep(const Candidate& c, float weight) {
+  void keep(const Candidate& c, float purity, float weight) {
     if (!options_.keepReadings) return;
     out_.readings.push_back(
-        {{c.vertices[0], c.vertices[1], c.vertices[2], c.vertices[3]}, c.reading, c.purity, weight});
+        {{c.vertices[0], c.vertices[1], c.vertices[2], c.vertices[3]}, c.reading, purity, weight});
   }
 
   // Index and label in one word: both digit strings are below 10^9, so r1's digits and r2's prefix fit.

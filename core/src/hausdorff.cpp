@@ -40,46 +40,71 @@ double squaredToFace(const Point& p, const Mesh& mesh, const std::vector<double>
   return best;
 }
 
-/// One direction of hausdorffLocal(): samples of `from` against the faces of `to`, both on `mesh`'s connectivity.
+/// Both directions of hausdorffLocal(): samples of either surface against the faces of the other one around the same
+/// place.
 class LocalDistance {
  public:
-  LocalDistance(const Mesh& mesh, const WeldedMesh& welded, const FaceRings& rings, const std::vector<double>& from,
-                const std::vector<double>& to, double& worst)
-      : mesh_(mesh), welded_(welded), rings_(rings), from_(from), to_(to), worst_(worst) {}
+  LocalDistance(const Mesh& mesh, const WeldedMesh& welded, const std::vector<double>& other)
+      : mesh_(mesh), welded_(welded), rings_(faceRings(mesh, welded)), other_(other) {}
 
-  void run() {
+  /// The largest squared distance.
+  [[nodiscard]] double run() {
     // First mesh vertex of each welded one: twins move alike, or their own faces tell.
-    std::vector<std::uint32_t> vertexOf(welded_.vertexCount());
-    for (std::size_t v = mesh_.vertexCount(); v > 0; --v)
-      if (welded_.weldedOf[v - 1] != kNoVertex) vertexOf[welded_.weldedOf[v - 1]] = static_cast<std::uint32_t>(v - 1);
-    for (std::uint32_t a = 0; a < welded_.vertexCount(); ++a) {
-      const Point here = pointAt(from_, vertexOf[a]), there = pointAt(to_, vertexOf[a]);
-      const std::uint32_t alone[] = {a};
-      sample(here, there, alone);
-      for (std::uint32_t b : welded_.neighboursOf(a)) {
-        if (b < a) continue;
-        const std::uint32_t ends[] = {a, b};
-        sample(0.5 * (here + pointAt(from_, vertexOf[b])), 0.5 * (there + pointAt(to_, vertexOf[b])), ends);
-      }
+    std::vector<std::uint8_t> seen(welded_.vertexCount(), 0);
+    for (std::size_t v = 0; v < mesh_.vertexCount(); ++v) {
+      const std::uint32_t w = welded_.weldedOf[v];
+      if (w == kNoVertex || seen[w] != 0) continue;
+      seen[w] = 1;
+      const std::uint32_t alone[] = {w};
+      sample(pointAt(mesh_.positions, v), pointAt(other_, v), alone);
     }
-    for (std::size_t f = 0; f < mesh_.faceCount(); ++f)
-      for (std::size_t c = mesh_.faceBegin(f) + 2; c < mesh_.faceEnd(f); ++c) {
-        const std::uint32_t i = mesh_.faceVertices[mesh_.faceBegin(f)], j = mesh_.faceVertices[c - 1],
-                            k = mesh_.faceVertices[c];
-        const std::uint32_t corners[] = {welded_.weldedOf[i], welded_.weldedOf[j], welded_.weldedOf[k]};
-        sample(1.0 / 3 * (pointAt(from_, i) + pointAt(from_, j) + pointAt(from_, k)),
-               1.0 / 3 * (pointAt(to_, i) + pointAt(to_, j) + pointAt(to_, k)), corners);
-      }
+    for (std::size_t f = 0; f < mesh_.faceCount(); ++f) sampleFace(f);
+    return worst_;
   }
 
  private:
-  /// @param there  the same place on the other surface: its distance is an upper bound.
+  /// Middles of the boundary edges and of the fanned triangles. The middle of two or three points moves no farther than
+  /// the one of them that moves farthest, so most faces of a marked model are passed over.
+  void sampleFace(std::size_t face) {
+    const std::size_t begin = mesh_.faceBegin(face), end = mesh_.faceEnd(face);
+    double farthest = 0;
+    for (std::size_t c = begin; c < end; ++c) {
+      const std::uint32_t v = mesh_.faceVertices[c];
+      farthest = std::max(farthest, squared(pointAt(other_, v) - pointAt(mesh_.positions, v)));
+    }
+    if (farthest <= worst_) return;
+    const auto corner = [&](std::size_t c) { return welded_.weldedOf[mesh_.faceVertices[c]]; };
+    const auto middle = [&](const std::vector<double>& positions, std::size_t c, std::size_t d) {
+      return 0.5 * (pointAt(positions, mesh_.faceVertices[c]) + pointAt(positions, mesh_.faceVertices[d]));
+    };
+    const auto centre = [&](const std::vector<double>& positions, std::size_t c) {
+      return 1.0 / 3 * (pointAt(positions, mesh_.faceVertices[begin]) + pointAt(positions, mesh_.faceVertices[c - 1]) +
+                        pointAt(positions, mesh_.faceVertices[c]));
+    };
+    for (std::size_t c = begin, d = end - 1; c < end; d = c++) {
+      const std::uint32_t ends[] = {corner(c), corner(d)};
+      sample(middle(mesh_.positions, c, d), middle(other_, c, d), ends);
+    }
+    for (std::size_t c = begin + 2; c < end; ++c) {
+      const std::uint32_t corners[] = {corner(begin), corner(c - 1), corner(c)};
+      sample(centre(mesh_.positions, c), centre(other_, c), corners);
+    }
+  }
+
+  /// The same place on both surfaces: their distance is an upper bound for both directions.
   void sample(const Point& here, const Point& there, std::span<const std::uint32_t> around) {
-    double best = squared(there - here);
+    const double bound = squared(there - here);
+    if (bound <= worst_) return;
+    distance(here, bound, other_, around);
+    distance(there, bound, mesh_.positions, around);
+  }
+
+  /// From p, at most `best` away, to the faces at the vertices `around` of the surface with these positions.
+  void distance(const Point& p, double best, const std::vector<double>& to, std::span<const std::uint32_t> around) {
     if (best <= worst_) return;
     for (std::uint32_t vertex : around)
       for (std::uint32_t face : rings_.facesOf(vertex)) {
-        best = std::min(best, squaredToFace(here, mesh_, to_, face));
+        best = std::min(best, squaredToFace(p, mesh_, to, face));
         if (best <= worst_) return;
       }
     worst_ = best;
@@ -87,9 +112,9 @@ class LocalDistance {
 
   const Mesh& mesh_;
   const WeldedMesh& welded_;
-  const FaceRings& rings_;
-  const std::vector<double>&from_, &to_;
-  double& worst_;
+  const FaceRings rings_;
+  const std::vector<double>& other_;
+  double worst_ = 0;
 };
 
 /// Triangles in a binary tree of boxes, split at the median of the longest side.
@@ -214,11 +239,7 @@ void oneSided(const Mesh& from, const BoxTree& tree, int samplesPerFace, double&
 }  // namespace
 
 double detail::hausdorffLocal(const Mesh& a, const std::vector<double>& b, const WeldedMesh& welded) {
-  const FaceRings rings = faceRings(a, welded);
-  double worst = 0;
-  LocalDistance(a, welded, rings, a.positions, b, worst).run();
-  LocalDistance(a, welded, rings, b, a.positions, worst).run();
-  return std::sqrt(worst);
+  return std::sqrt(LocalDistance(a, welded, b).run());
 }
 
 double hausdorffLocal(const Mesh& a, const Mesh& b) {

@@ -97,13 +97,13 @@ void measureNormals(const Mesh& original, const std::vector<double>& marked, con
 }  // namespace
 
 Distortion distortion(const Mesh& original, const Mesh& marked) {
-  return distortion(original, marked.positions, weld(original));
+  return distortion(original, marked.positions, weld(original), boundingDiagonal(original));
 }
 
-Distortion distortion(const Mesh& original, const std::vector<double>& marked, const WeldedMesh& welded) {
+Distortion distortion(const Mesh& original, const std::vector<double>& marked, const WeldedMesh& welded,
+                      double diagonal) {
   assert(original.positions.size() == marked.size());
   Distortion out;
-  const double diagonal = boundingDiagonal(original);
   measureDisplacement(original, marked, diagonal, out);
   measureNormals(original, marked, welded, out);
   if (diagonal > 0) out.hausdorffRel = detail::hausdorffLocal(original, marked, welded) / diagonal;

@@ -156,7 +156,7 @@ Result<EmbedResponse> embed(std::span<const std::uint8_t> file, const Resources&
   if (!marked) return marked.error();
   if (!tell(request.progress, "report", 0.95)) return cancelled();
 
-  const Distortion measured = distortion(mesh, marked->positions, marked->welded);
+  const Distortion measured = distortion(mesh, marked->positions, marked->welded, marked->diagonal);
   marked->welded = WeldedMesh{};  // not needed while the file is copied
 
   EmbedResponse response;
@@ -226,7 +226,7 @@ Result<std::string> inspect(std::span<const std::uint8_t> file, const Resources&
   auto model = readModel(file, resources);
   if (!model) return model.error();
   const Mesh& mesh = (*model)->mesh();
-  const WeldedMesh welded = weld(mesh);
+  WeldedMesh welded = weld(mesh);
   const double diagonal = boundingDiagonal(mesh);
   SearchResult found;
   if (diagonal > 0) found = searchCells(mesh, welded, PaperParams{}, diagonal, roundingOf(mesh.precision));

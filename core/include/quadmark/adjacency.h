@@ -21,7 +21,9 @@ struct WeldedMesh {
   std::vector<std::uint32_t> edgeOffsets;    ///< welded vertices + 1: where each one's neighbours begin
   std::vector<std::uint32_t> neighbours;     ///< unique, ascending per vertex, never the vertex itself
 
-  [[nodiscard]] std::uint32_t vertexCount() const { return static_cast<std::uint32_t>(positions.size() / 3); }
+  [[nodiscard]] std::uint32_t vertexCount() const {
+    return edgeOffsets.empty() ? 0 : static_cast<std::uint32_t>(edgeOffsets.size() - 1);
+  }
   [[nodiscard]] std::span<const std::uint32_t> neighboursOf(std::uint32_t vertex) const {
     return {neighbours.data() + edgeOffsets[vertex], edgeOffsets[vertex + 1] - edgeOffsets[vertex]};
   }

@@ -32,16 +32,16 @@ inline constexpr double kExactUnits = 4;
 
 struct SearchResult {
   std::vector<Quad> cells;             ///< vertex disjoint, each exactly coplanar up to rounding
-  std::vector<double> positions;       ///< welded positions after construction, 3 per welded vertex
   std::uint32_t naturalCells = 0;      ///< how many were coplanar before
 };
 
 /// Finds vertex-disjoint coplanar convex quadrilaterals in the neighbourhoods, in vertex order (section 4.2, steps 1-2):
 /// natural ones, longest diagonals first; else the smallest projection of one vertex onto the plane of three others, up
 /// to lambda * diagonal (D7). A vertex already used may still seed a neighbourhood (D9).
+/// @param welded    weld(mesh); its positions become those after construction.
 /// @param diagonal  bounding-box diagonal, file units, > 0.
 /// Cost: linear, about 0.5 microseconds per vertex.
-[[nodiscard]] SearchResult searchCells(const Mesh& mesh, const WeldedMesh& welded, const PaperParams& params,
+[[nodiscard]] SearchResult searchCells(const Mesh& mesh, WeldedMesh& welded, const PaperParams& params,
                                        double diagonal, const Rounding& rounding);
 
 /// How flat a set must be to be reported: gap <= max(kExactUnits or fewer rounding units, min(units, relative * longer

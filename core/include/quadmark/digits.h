@@ -55,10 +55,10 @@ struct Reading {
   std::uint32_t index = 0;                ///< piece index
   std::uint32_t piece = 0;                ///< 3 (H2 - L2 + 1) bits, as written (still padded by the key)
   std::uint32_t prefix1 = 0, prefix2 = 0; ///< prefixes of r1 and r2: the cell's label
-  double residue1 = 0, residue2 = 0;      ///< see RatioDigits
+  float residue1 = 0, residue2 = 0;       ///< see RatioDigits
   /// Probability that a chance reading with the same leading digits is valid. Leading digits follow the shapes of a
   /// model's neighbourhoods, the others are uniform: this is what a share of valid readings has to be compared with.
-  double chance = 0;
+  float chance = 0;
 };
 
 class PairCodec {

@@ -32,7 +32,8 @@ struct MarkedMesh {
   std::uint32_t leastRepeats = 0;     ///< copies of the rarest piece
   std::uint32_t repairs = 0;          ///< sets broken and cells rewritten by the verification
   Guarantees guarantees;
-  WeldedMesh welded;                  ///< the mesh's connectivity, with the marked positions
+  double diagonal = 0;                ///< boundingDiagonal() of the mesh before
+  WeldedMesh welded;                  ///< weldedOf and vertexCount() only, numbered in an order of its own
 };
 
 /// Marks a mesh.

@@ -30,9 +30,11 @@ struct Distortion {
 [[nodiscard]] Distortion distortion(const Mesh& original, const Mesh& marked);
 
 /// The same without a second copy of the connectivity.
-/// @param marked  3 per vertex of `original`.
-/// @param welded  weld(original); only its connectivity is used.
-[[nodiscard]] Distortion distortion(const Mesh& original, const std::vector<double>& marked, const WeldedMesh& welded);
+/// @param marked    3 per vertex of `original`.
+/// @param welded    weld(original), in any numbering; only weldedOf and vertexCount() are used.
+/// @param diagonal  boundingDiagonal(original).
+[[nodiscard]] Distortion distortion(const Mesh& original, const std::vector<double>& marked, const WeldedMesh& welded,
+                                    double diagonal);
 
 /// Two-sided Hausdorff distance in file units, in the manner of Metro (Cignoni et al. 1998) for meshes with the same
 /// connectivity: every vertex, edge midpoint and triangle centre (polygons are fanned) of one surface against the faces
