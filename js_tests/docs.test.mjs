@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The READMEs are true: their JavaScript and quadmark command blocks are run, in order, in a folder with the files they
-// name: model.glb, model.ply and logo.png. A block under an HTML comment `<!-- not run: reason -->` is left out.
+// name: model.glb, model.ply and logo.png; C++ is compiled. A block under an HTML comment `<!-- not run: reason -->` is left out.
 import assert from 'node:assert/strict';
 import { existsSync, mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
 import { delimiter, join } from 'node:path';
@@ -45,8 +45,14 @@ for (const name of ['node/README.md', 'README.md']) {
         const { status, stderr } = await run('bash', ['-c', script], { cwd: folder, env });
         assert.equal(status, 0, `${code}\n${stderr}`);
         ++runs;
+      } else if (language === 'cpp') {
+        writeFileSync(join(folder, 'block.cpp'), code);
+        const flags = ['-std=c++20', '-Wall', '-Wextra', '-Werror', '-fsyntax-only', '-I', join(repository, 'core/include')];
+        const { status, stderr } = await run('g++', [...flags, 'block.cpp'], { cwd: folder });
+        assert.equal(status, 0, `${code}\n${stderr}`);
+        ++runs;
       }
     }
-    if (name === 'node/README.md') assert.ok(runs >= 3, `${runs} blocks`);
+    assert.ok(runs >= 3, `${runs} blocks`);
   });
 }

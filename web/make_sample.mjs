@@ -5,24 +5,10 @@ import { createHash } from 'node:crypto';
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { embed, encodeImage, extract, parseKey } from 'quadmark';
 import { attack, generate } from 'quadmark/lab';
+import { drawEmblem } from '../scripts/support/emblem.mjs';
 
 const SIZE = 32;
 const folder = new URL('./public/sample/', import.meta.url);
-
-/** The letter Q: a ring with a tail. */
-function drawLogo() {
-  const bits = new Uint8Array(SIZE * SIZE);
-  for (let y = 0; y < SIZE; ++y) {
-    for (let x = 0; x < SIZE; ++x) {
-      const u = (x + 0.5) / SIZE - 0.48, v = (y + 0.5) / SIZE - 0.48;
-      const distance = Math.sqrt(u * u + v * v);
-      const ring = distance > 0.27 && distance < 0.42;
-      const tail = u > 0.08 && v > 0.08 && u < 0.46 && Math.abs(u - v) < 0.075;
-      bits[y * SIZE + x] = ring || tail ? 1 : 0;
-    }
-  }
-  return { width: SIZE, height: SIZE, bits };
-}
 
 // A key that everybody has: its secret is the hash of a sentence, so that each build makes the same files.
 const key = await parseKey({
@@ -32,7 +18,7 @@ const key = await parseKey({
   owner: 'quadmark sample',
   params: { L1: 2, H1: 4, L2: 2, H2: 3, lambda: 1e-3, tau: 1e-3, k: 1, width: SIZE, height: SIZE },
 });
-const logo = drawLogo();
+const logo = drawEmblem(SIZE);
 const { bytes: original } = await generate({ name: 'sculpture', vertices: 20000, format: 'glb' });
 const { bytes: marked } = await embed(original, { key, image: logo });
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Generated models dressed as web builds see them: nodes with transforms, normals, texture coordinates, a texture,
-// a mesh with seams and one that two nodes share. Written by glTF-Transform, not by us.
+// a mesh with seams and a morph target, and one that five nodes share. Written by glTF-Transform, not by us.
 import { Document, NodeIO } from '@gltf-transform/core';
 import { generate } from 'quadmark/lab';
 import { readDocument } from './gltf_readers.mjs';
@@ -41,19 +41,30 @@ async function addMesh(document, material, name, vertices) {
   return document.createMesh(name).addPrimitive(primitive);
 }
 
-/** A GLB of four nodes: a sculpture of about `vertices` vertices, a smaller seamed mesh, and one ball twice. */
+/** Adds a morph target, off by default, that stretches the mesh upwards. */
+function addMorph(document, mesh) {
+  const [primitive] = mesh.listPrimitives();
+  const deltas = primitive.getAttribute('POSITION').getArray().map((value, i) => (i % 3 === 1 ? value / 4 : 0));
+  const accessor = document.createAccessor().setType('VEC3').setArray(deltas).setBuffer(document.getRoot().listBuffers()[0]);
+  primitive.addTarget(document.createPrimitiveTarget('tall').setAttribute('POSITION', accessor));
+  mesh.setWeights([0]);
+}
+
+/** A GLB of seven nodes: a sculpture of about `vertices` vertices, a smaller seamed mesh, and one ball five times. */
 export async function webScene(vertices = 3000) {
   const document = new Document();
   document.createBuffer();
   const texture = document.createTexture('pattern').setImage(new Uint8Array(logoPng(logo(32)))).setMimeType('image/png');
   const material = document.createMaterial('clay').setBaseColorTexture(texture).setRoughnessFactor(0.7).setMetallicFactor(0);
   const ball = await addMesh(document, material, 'icosphere', 600);
+  const pedestal = await addMesh(document, material, 'seamed', 1000);
+  addMorph(document, pedestal);
   const turned = Math.SQRT1_2;
   const nodes = [
     document.createNode('statue').setMesh(await addMesh(document, material, 'sculpture', vertices)).setRotation([0, turned, 0, turned]),
-    document.createNode('pedestal').setMesh(await addMesh(document, material, 'seamed', 1000)).setTranslation([0, -2, 0]).setScale([1.5, 0.5, 1.5]),
-    document.createNode('left ball').setMesh(ball).setTranslation([-1.5, 0, 0.5]).setScale([0.3, 0.3, 0.3]),
-    document.createNode('right ball').setMesh(ball).setTranslation([1.5, 0, 0.5]).setScale([0.3, 0.3, 0.3]),
+    document.createNode('pedestal').setMesh(pedestal).setTranslation([0, -1.3, 0]).setScale([1.5, 0.5, 1.5]),
+    ...[-2, -1, 0, 1, 2].map((place) => document.createNode(`ball ${place}`).setMesh(ball)
+      .setTranslation([0.7 * place, -0.7, 1]).setScale([0.2, 0.2, 0.2])),
   ];
   const scene = document.createScene('gallery');
   nodes.forEach((node) => scene.addChild(node));
