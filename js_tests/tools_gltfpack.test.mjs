@@ -10,6 +10,8 @@ const scene = await webScene();
 for (const { flags, survives } of [
   { flags: '-noq', survives: true },
   { flags: '-vpf' },
+  { flags: '-c -noq', survives: true },
+  { flags: '-cz -noq', survives: true },
 ]) {
   const line = `gltfpack ${flags}`.trim();
   test(line, (t) => assertRoundTrip(t, tool(line), scene, { survives }));
