@@ -45,7 +45,7 @@ test('usage mistakes are exit 2', async (t) => {
   await refuses([], 2, /Usage/);
   await refuses(['paint'], 2, /unknown command/);
   await refuses(['embed', 'in.ply', 'out.ply', '--bogus'], 2, /unknown option/);
-  await refuses(['embed', 'in.ply', ...EMBED], 2, /expected IN OUT/);
+  await refuses(['embed', 'in.ply', ...EMBED], 2, /expected IN and OUT/);
   await refuses(['embed', 'in.ply', 'out.ply', '--image', 'logo.png'], 2, /no key.*QUADMARK_KEY_FILE/);
   await refuses(['embed', 'in.ply', 'out.ply', '--key', 'key.json'], 2, /exactly one of --image and --id/);
   await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--id', '1'], 2, /exactly one of --image and --id/);
@@ -53,6 +53,7 @@ test('usage mistakes are exit 2', async (t) => {
   await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--set', 'strength=1'], 2, /strength: unknown parameter/);
   await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--set', 'H1=40'], 2, /H1/);
   await refuses(['embed', 'in.ply', '-', ...EMBED, '--json'], 2, /both want standard output/);
+  await refuses(['embed', 'in.ply', 'out.glb', ...EMBED], 2, /out\.glb: marking does not convert/);
   await refuses(['embed', '-', 'out.ply', '--key', '-', '--image', 'logo.png'], 2, /only once/);
   await refuses(['extract', '--key', 'key.json'], 2, /missing required argument/);
   await refuses(['keygen', 'new.json'], 2, /exactly one of --image, --size and --id-bits/);
@@ -72,8 +73,8 @@ test('what cannot be read is exit 1 with the reason', async (t) => {
   await refuses(['embed', 'cut.ply', 'out.ply', ...EMBED], 1, /bad_file/);
   await refuses(['extract', 'text.ply', '--key', 'key.json', '--image-out', 'mark.png'], 1, /bad_file/);
   await refuses(['embed', 'in.ply', 'out.ply', '--key', 'absent.json', '--image', 'logo.png'], 1, /cannot read the key absent\.json/);
-  await refuses(['embed', 'in.ply', 'out.ply', '--key', 'in.ply', '--image', 'logo.png'], 1, /bad_key/);
-  await refuses(['embed', 'in.ply', 'out.ply', '--key', 'key.json', '--image', 'in.ply'], 1, /bad_image/);
+  await refuses(['embed', 'in.ply', 'out.ply', '--key', 'in.ply', '--image', 'logo.png'], 1, /in\.ply: .*bad_key/);
+  await refuses(['embed', 'in.ply', 'out.ply', '--key', 'key.json', '--image', 'text.ply'], 1, /in\.ply: text\.ply: .*bad_image/);
   await refuses(['extract', '*.nothing', '--key', 'key.json'], 1, /no file matches/);
 });
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // quadmark embed: marks models and writes them, with the external files of a .gltf beside the output.
 import { existsSync } from 'node:fs';
-import { basename, dirname, join, resolve } from 'node:path';
+import { basename, dirname, extname, join, resolve } from 'node:path';
 import { QuadmarkError } from '../error.js';
 import { EXIT, worstExit } from './exit.js';
-import { displayName, readInput, readModelFile, safeRelativePath } from './files.js';
+import { displayName, naming, readInput, readModelFile, safeRelativePath } from './files.js';
 import { expandGlobs } from './glob.js';
 import { readKey } from './keys.js';
 import { millisSince } from './output.js';
@@ -19,11 +19,21 @@ function planJobs(files, options, output) {
     return inputs.map((input) => ({ input, output: join(options.outDir, basename(input)) }));
   }
   if (files.length !== 2) {
-    throw new QuadmarkError('bad_option', `expected IN OUT, got ${files.length} names; for many inputs give --out-dir`);
+    throw new QuadmarkError('bad_option', `expected IN and OUT, got ${files.length} name${files.length === 1 ? '' : 's'}; for many inputs give --out-dir`);
   }
   const [input, out] = files;
   if (out === '-' && output.json) throw new QuadmarkError('bad_option', 'the model and --json both want standard output');
+  checkFormat(input, out);
   return [{ input, output: out }];
+}
+
+/** Refuses an output whose name promises another format than the input's, which marking keeps. */
+function checkFormat(input, out) {
+  const [from, to] = [input, out].map((name) => extname(name).toLowerCase());
+  const formats = ['.glb', '.gltf', '.ply'];
+  if (from !== to && formats.includes(from) && formats.includes(to)) {
+    throw new QuadmarkError('bad_option', `${out}: marking does not convert, the marked ${basename(input)} is a ${from} too`);
+  }
 }
 
 export async function embedCommand(files, options, output) {
@@ -48,24 +58,24 @@ export async function embedCommand(files, options, output) {
   }
   const statuses = await forEachInput(
     jobs, jobCount(options.jobs, jobs.length),
-    (job, { embed }) => embedOne(job, request, writer, output, embed),
+    (job, { embed }) => embedOne(job, options.image, request, writer, output, embed),
     (job, error) => output.failure(job.input, error));
   return worstExit(statuses);
 }
 
 /** Marks and writes one model; the function it returns prints the result. */
-async function embedOne({ input, output: out }, request, writer, output, embed) {
+async function embedOne({ input, output: out }, image, request, writer, output, embed) {
   const start = performance.now();
   // What cannot be written is said before the work, not after it.
   const target = writer.check(out, input);
   const model = await readModelFile(input);
   for (const path of [...model.paths.values(), ...model.images.values()]) writer.protect(path);
   const beside = await planBeside(model, out, writer);
-  const { bytes, resources, report } = await embed(model.bytes, {
+  const { bytes, resources, report } = await naming(image, ['bad_image'], embed(model.bytes, {
     ...request,
     resources: model.resources,
     options: { onProgress: output.onProgress },
-  });
+  }));
   const files = [];
   for (const { uri, path, image } of beside.files) {
     files.push({ path, bytes: resources[uri] ?? model.resources[uri] ?? (await readInput(image)) });

@@ -3,7 +3,7 @@
 import { basename, extname, join } from 'node:path';
 import { QuadmarkError } from '../error.js';
 import { exitOfVerdict, worstExit } from './exit.js';
-import { displayName, readInput, readModelFile } from './files.js';
+import { displayName, naming, readInput, readModelFile } from './files.js';
 import { expandGlobs } from './glob.js';
 import { readKey } from './keys.js';
 import { millisSince } from './output.js';
@@ -61,7 +61,8 @@ async function extractOne(input, options, request, writer, output, extract) {
   const start = performance.now();
   const pictures = picturesOf(input, options, writer);
   const { bytes, resources } = await readModelFile(input);
-  const result = await extract(bytes, { ...request, resources, options: { onProgress: output.onProgress } });
+  const result = await naming(options.reference, ['bad_image'],
+    extract(bytes, { ...request, resources, options: { onProgress: output.onProgress } }));
   writer.writeAll(pictures.map(({ path, of }) => ({ path, bytes: result.image[of] })));
   const millis = millisSince(start);
   return () => {

@@ -35,6 +35,16 @@ export async function readInput(name, what = 'cannot read') {
   }
 }
 
+/** Passes on what `work` gives; failures with one of `codes` get the name of the file that they speak of. */
+export async function naming(name, codes, work) {
+  try {
+    return await work;
+  } catch (error) {
+    if (name === undefined || !codes.includes(error.code)) throw error;
+    throw new QuadmarkError(error.code, `${displayName(name)}: ${error.message}`, { cause: error });
+  }
+}
+
 /**
  * Relative path of a URI found in a file, or null for what is not followed: URLs (data: too), absolute paths, anything
  * that climbs out by "..", and names that hide such things behind %-escapes or backslashes.

@@ -32,15 +32,22 @@ async function inspectOne(input, output, inspect) {
   };
 }
 
-/** Every plain value of the report, one per line; what it has is the core's to decide. */
+/** Every plain value of the report, one per line, and one line per item of a list; what it has is the core's to decide. */
 function describe(input, report) {
   const lines = [`${displayName(input)}:`];
   const walk = (object, indent) => {
     for (const [name, value] of Object.entries(object)) {
       if (name === 'warnings') continue;
       if (Array.isArray(value)) {
-        const items = value.map((item) => (typeof item === 'object' ? JSON.stringify(item) : item));
-        if (items.length > 0) lines.push(`${indent}${name}: ${items.join(', ')}`);
+        if (value.length === 0) continue;
+        if (typeof value[0] !== 'object') {
+          lines.push(`${indent}${name}: ${value.join(', ')}`);
+          continue;
+        }
+        lines.push(`${indent}${name}:`);
+        for (const item of value) {
+          lines.push(`${indent}  ${Object.entries(item).map(([key, part]) => `${key} ${part === '' ? '""' : part}`).join(', ')}`);
+        }
       } else if (typeof value === 'object' && value !== null) {
         lines.push(`${indent}${name}:`);
         walk(value, `${indent}  `);

@@ -2,7 +2,7 @@
 // The key of a run: read once from --key or QUADMARK_KEY_FILE, with --set applied.
 import { QuadmarkError } from '../error.js';
 import { parseKey } from '../index_node.js';
-import { readInput } from './files.js';
+import { naming, readInput } from './files.js';
 
 const PARAMETERS = ['H1', 'L1', 'H2', 'L2', 'lambda', 'tau', 'k', 'keyedCells', 'scrambleOrder'];
 
@@ -21,7 +21,8 @@ export async function readKey(options) {
     throw new QuadmarkError('bad_option', 'no key: give --key FILE or set QUADMARK_KEY_FILE');
   }
   const settings = checkSettings(options.set);
-  const key = await parseKey(await readInput(options.key, 'cannot read the key'));
+  const file = await readInput(options.key, 'cannot read the key');
+  const key = await naming(options.key, ['bad_key', 'unsupported_version'], parseKey(file));
   if (options.scheme !== undefined && options.scheme !== key.scheme) {
     throw new QuadmarkError('bad_key', `the key is for scheme ${JSON.stringify(key.scheme)}, not ${JSON.stringify(options.scheme)}`);
   }
