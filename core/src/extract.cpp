@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 
 #include "purity.h"
 #include "quadmark/exact_math.h"
@@ -24,6 +23,27 @@ struct Candidate {
   Reading reading;
   float sigma;                ///< what rounding may do to the ratios, standard deviation in digits
   int kind;                   ///< in the pass's PurityTable
+};
+
+// Candidates in blocks: a growing vector would hold them twice for a while.
+class CandidateList {
+ public:
+  void add(const Candidate& candidate) {
+    if (blocks_.empty() || blocks_.back().size() == kBlock) {
+      blocks_.emplace_back();
+      blocks_.back().reserve(kBlock);
+    }
+    blocks_.back().push_back(candidate);
+  }
+  template <class Visit>
+  void forEach(const Visit& visit) const {
+    for (const std::vector<Candidate>& block : blocks_)
+      for (const Candidate& candidate : block) visit(candidate);
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 4096;
+  std::vector<std::vector<Candidate>> blocks_;
 };
 
 class Extractor {
@@ -62,8 +82,7 @@ class Extractor {
   // Reads all sets whose gap lies in (previous, units] rounding units. False when tau ends the series.
   bool pass(double units, double previous) {
     const double cap = previous == 0 ? 0 : key_.params.tau;
-    // A deque: up to one in three vertices, which a growing vector would hold twice for a while.
-    std::deque<Candidate> candidates;
+    CandidateList candidates;
     PurityTable table;
     bool reachedAny = previous == 0;
     forEachSet({units, cap}, [&](const Quad& quad) {
@@ -77,7 +96,7 @@ class Extractor {
       if (!pad_.carries(reading.prefix1, reading.prefix2)) return;
       const int kind = PurityTable::kind(gapUnits, reading);
       table.add(kind, reading, quad.ratioAC, quad.ratioBD);
-      candidates.push_back({{quad.a, quad.b, quad.c, quad.d}, reading, static_cast<float>(sigma), kind});
+      candidates.add({{quad.a, quad.b, quad.c, quad.d}, reading, static_cast<float>(sigma), kind});
     });
     table.estimate();
     if (previous == 0) excess_ = table.excess();
@@ -97,32 +116,29 @@ class Extractor {
   }
 
   // A vertex belongs to one cell. Where sets compete the purer kind wins, then the longer diagonals (the paper's rule).
-  void accept(const std::deque<Candidate>& candidates, const PurityTable& table) {
+  void accept(const CandidateList& candidates, const PurityTable& table) {
     std::vector<std::uint8_t> claims(welded_.vertexCount(), 0);
     const auto votes = [&](const Candidate& c) {
       return c.reading.state == ReadingState::ok && table.purity(c.kind) >= kLeastPurity;
     };
     std::size_t voters = 0;
-    for (const Candidate& c : candidates) {
-      if (!votes(c)) continue;
+    candidates.forEach([&](const Candidate& c) {
+      if (!votes(c)) return;
       ++voters;
       for (std::uint32_t v : c.vertices) claims[v] = static_cast<std::uint8_t>(std::min(claims[v] + 1, 2));
-    }
+    });
     accepted_.reserve(accepted_.size() + voters);
     std::vector<Rival> contested;
-    for (const Candidate& c : candidates) {
+    candidates.forEach([&](const Candidate& c) {
       const auto purity = static_cast<float>(table.purity(c.kind));
-      if (!votes(c)) {
-        erasure(c, purity);
-        continue;
-      }
+      if (!votes(c)) return erasure(c, purity);
       bool alone = true;
       for (std::uint32_t v : c.vertices) alone = alone && claims[v] == 1;
       if (alone)
         take(c, purity);
       else
         contested.push_back({purity, diagonalSum(c), &c});
-    }
+    });
     std::sort(contested.begin(), contested.end(), [&](const Rival& x, const Rival& y) {
       if (x.purity != y.purity) return x.purity > y.purity;
       if (x.diagonalSum != y.diagonalSum) return x.diagonalSum > y.diagonalSum;
