@@ -184,11 +184,15 @@ TEST(RobustDiamonds, MeasureWhereDiagonalsMeet) {
   EXPECT_FALSE(diamondShape(positions, {0, 1, 2, 3}, shape)) << "the diagonals meet at an end: not convex";
 }
 
-TEST(RobustDiamonds, AreInteriorEdgesOfTrianglesAndBothDiagonalsOfQuads) {
+TEST(RobustDiamonds, AreInteriorEdgesOfTrianglesAndQuadsCutFromTheirFirstCorner) {
   const Mesh sphere = lab::icosphere(2);
   EXPECT_EQ(collectDiamonds(makeSurface(sphere)).size(), 3 * sphere.faceCount() / 2);
   const Mesh quads = lab::quadSphere(2);
-  EXPECT_EQ(collectDiamonds(makeSurface(quads)).size(), 2 * quads.faceCount());
+  const Surface surface = makeSurface(quads);
+  const std::vector<Diamond> cut = collectDiamonds(surface);
+  ASSERT_EQ(cut.size(), quads.faceCount());
+  for (std::uint32_t f = 0; f < surface.faceCount(); ++f)
+    EXPECT_EQ(std::minmax(cut[f].b, cut[f].d), std::minmax(surface.face(f)[0], surface.face(f)[2]));
   EXPECT_EQ(collectDiamonds(makeSurface(lab::bumpyGrid(3, 2, 1))).size(), 3u);  // four triangles in a row
 }
 

@@ -36,8 +36,7 @@ Carriers selectCarriers(const Surface& surface, const Prf& select) {
     const auto ring = surface.ring(v);
     bool highest = true;
     for (std::size_t k = 0; highest && k < ring.size(); ++k) highest = rank[ring[k]] < rank[v];
-    std::uint64_t hash = 0;
-    if (!highest || !canonicalRing(ring, labels.below, order, hash)) continue;
+    if (!highest || !labels.orderRing(surface, v, order)) continue;
     out.vertex.push_back(v);
     out.label.push_back(labels.label[v]);
     out.rings.insert(out.rings.end(), order, order + ring.size());

@@ -37,7 +37,7 @@ void forEachPair(const Candidate& c, const DeltaClass& shape, const std::vector<
       if (row[s] == Constellation::kNone) continue;
       const double alongSpan = (fineCentre(s, shape) - c.spanRatio) * c.spanLength;
       const double slide = alongEdge * alongEdge + alongSpan * alongSpan;
-      const auto cost = static_cast<float>(std::sqrt(kSlideWeight * slide + gap2) / shorter);
+      const auto cost = static_cast<float>(c.reluctance * std::sqrt(kSlideWeight * slide + gap2) / shorter);
       visit(row[s], cost, farEdge || std::abs(s - spanCell) > DiamondQueues::kNear);
     }
   }

@@ -15,6 +15,7 @@ struct Candidate {
   float edgeRatio, spanRatio;    ///< folded
   float edgeLength, spanLength;  ///< file units
   float gap;                     ///< file units
+  float reluctance;              ///< factor on the cost: above 1 where simplification would collapse a vertex soon
 };
 
 /// One entry of a good cell's queue.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "likelihood.h"
 #include "quadmark/exact_math.h"
 
 namespace quadmark::robust {
@@ -12,15 +13,6 @@ constexpr double kFarthest = 4;   // gaps of more standard deviations than this 
 constexpr double kBlurred = 0.7;  // cells whose ratios are known worse than this many fine cells say nothing
 constexpr double kMostPerDiamond = 2.5;
 constexpr double kMostPerCell = 25;
-constexpr double kRootTwoPi = 2.5066282746310002;
-
-// exp(-x / 2) for x >= 0, to a few per cent: a decision needs no more, and no libm.
-double gaussian(double x) {
-  double q = 1 - x / 32;
-  if (q <= 0) return 0;
-  q *= q, q *= q, q *= q, q *= q;
-  return q;
-}
 
 // ln(1 + x) for x >= 0, Pade; more than the bound on a diamond's vote beyond x = 50.
 double logOnePlus(double x) {

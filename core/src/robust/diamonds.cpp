@@ -55,7 +55,6 @@ std::vector<Diamond> collectDiamonds(const Surface& surface) {
   for (std::uint32_t f = 0; f < surface.faceCount(); ++f) {
     const auto face = surface.face(f);
     if (face.size() != 4 || face[0] == face[2] || face[1] == face[3]) continue;
-    out.push_back({face[0], face[1], face[2], face[3]});
     out.push_back({face[1], face[2], face[3], face[0]});
   }
   return out;

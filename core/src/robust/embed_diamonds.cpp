@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "diamond_queues.h"
 
@@ -66,13 +67,15 @@ class Writer {
     Vec3 gap;
     double norm = 0;
     for (int k = 0; k < 4; ++k) gap += weight[k] * old[k], norm += weight[k] * weight[k];
-    double farthest = 0;
+    const Vec3 normal = normalized(cross(old[2] - old[0], old[3] - old[1]));
+    double farthest = 0, slide = 0;
     for (int k = 0; k < 4; ++k) {
       const Vec3 move = (-weight[k] / norm) * gap;
       put(positions_, vertex[k], old[k] + move);
       farthest = std::max(farthest, length(move));
+      slide = std::max(slide, length(move - dot(move, normal) * normal));
     }
-    bool bad = limits_.maxMove > 0 && farthest > limits_.maxMove;
+    bool bad = farthest > limits_.maxMove || slide > limits_.maxSlide;
     for (int k = 0; k < 4 && !bad; ++k)
       for (std::uint32_t i = facesOf_.offsets[vertex[k]]; i < facesOf_.offsets[vertex[k] + 1] && !bad; ++i) {
         const auto face = surface_.face(facesOf_.faces[i]);
@@ -96,10 +99,71 @@ class Writer {
   FacesOf facesOf_;
 };
 
-std::vector<Candidate> findCandidates(const std::vector<double>& positions, const std::vector<Diamond>& diamonds,
-                                      const DeltaClass& shape, const DiamondLimits& limits, const Writer& writer) {
+// How far a vertex's faces are, root mean square by area, from the neighbour that it could collapse to most cheaply:
+// what edge-collapse simplifiers (Garland and Heckbert 1997) sort by. 0 where there is no closed fan.
+std::vector<float> collapseCosts(const Surface& surface, const std::vector<double>& positions) {
+  std::vector<float> out(surface.vertexCount(), 0.0f);
+  for (std::uint32_t v = 0; v < surface.vertexCount(); ++v) {
+    const auto ring = surface.ring(v);
+    if (ring.empty()) continue;
+    const Vec3 p = at(positions, v);
+    Vec3 normal[kMaxRing];
+    double area[kMaxRing], total = 0;
+    const std::size_t n = ring.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      normal[k] = cross(at(positions, ring[k]) - p, at(positions, ring[(k + 1) % n]) - p);
+      area[k] = length(normal[k]);
+      total += area[k];
+    }
+    double best = 1e300;
+    for (std::size_t u = 0; u < n; ++u) {
+      const Vec3 d = at(positions, ring[u]) - p;
+      double sum = 0;
+      for (std::size_t k = 0; k < n; ++k) {
+        const double h = dot(normal[k], d);
+        if (area[k] > 0) sum += h * h / area[k];
+      }
+      best = std::min(best, sum);
+    }
+    if (total > 0) out[v] = static_cast<float>(std::sqrt(best / total));
+  }
+  return out;
+}
+
+// Cells on vertices that simplifiers remove first are of little use: of the cheapest quarter, half and seven tenths of
+// all vertices by collapse cost, each doubles the reluctance to use them. Gain, coded bit error rate of layer B at
+// equal distortion: fandisk optimised .27 -> .19, at .5 and 14 bits .29 -> .20; bunny at .5 .27 -> .17; cloth at .5 and
+// 14 bits .30 -> .28. (Tried: one threshold at the error of gltf-transform's optimize; half the gain.)
+class Survival {
+ public:
+  Survival(const Surface& surface, const std::vector<double>& positions) : cost_(collapseCosts(surface, positions)) {
+    std::vector<float> sorted = cost_;
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t i = 0; i < std::size(kShares); ++i)
+      if (!sorted.empty())
+        limit_[i] = sorted[static_cast<std::size_t>(kShares[i] * static_cast<double>(sorted.size()))];
+  }
+
+  [[nodiscard]] float reluctance(const Diamond& q) const {
+    const float least = std::min({cost_[q.a], cost_[q.b], cost_[q.c], cost_[q.d]});
+    float out = 1;
+    for (const float limit : limit_)
+      if (least < limit) out *= 2;
+    return out;
+  }
+
+ private:
+  static constexpr double kShares[] = {0.25, 0.5, 0.7};
+  std::vector<float> cost_;
+  float limit_[std::size(kShares)] = {};
+};
+
+std::vector<Candidate> findCandidates(const Surface& surface, const std::vector<double>& positions,
+                                      const std::vector<Diamond>& diamonds, const DeltaClass& shape,
+                                      const DiamondLimits& limits, const Writer& writer) {
   const std::vector<std::uint8_t> sharp = sharpVertices(positions, diamonds, limits.sharpCosine);
   std::vector<Candidate> out;
+  const Survival survival(surface, positions);
   DiamondShape s;
   for (std::uint32_t i = 0; i < diamonds.size(); ++i) {
     const Diamond& q = diamonds[i];
@@ -110,7 +174,7 @@ std::vector<Candidate> findCandidates(const std::vector<double>& positions, cons
         fineCell(span, shape) >= shape.side)
       continue;
     out.push_back({i, static_cast<float>(edge), static_cast<float>(span), static_cast<float>(s.edgeLength),
-                   static_cast<float>(s.spanLength), static_cast<float>(s.gapLength)});
+                   static_cast<float>(s.spanLength), static_cast<float>(s.gapLength), survival.reluctance(q)});
   }
   return out;
 }
@@ -124,7 +188,7 @@ DiamondEmbedding embedDiamonds(const Surface& surface, const std::vector<Diamond
   DiamondEmbedding out;
   const DeltaClass& shape = constellation.shape();
   Writer writer(surface, diamonds, limits, occupied, positions);
-  std::vector<Candidate> candidates = findCandidates(positions, diamonds, shape, limits, writer);
+  std::vector<Candidate> candidates = findCandidates(surface, positions, diamonds, shape, limits, writer);
 
   // 1. The good fine cells: those whose meaning is what the payload says.
   const std::vector<std::uint32_t> goodSymbols = constellation.goodSymbols(payload);

@@ -17,7 +17,8 @@ struct DiamondLimits {
   double turnCosine = 0;              ///< cosine of the largest turn of an incident face against the original
   double farQuota = 0;                ///< cells per vertex up to which far candidates may fill up a good cell's share
   double leastFar = 2, mostFar = 10;  ///< bounds of that share, cells
-  double maxMove = 0;                 ///< file units; 0 = no limit
+  double maxMove = 1e300;             ///< of any vertex, file units
+  double maxSlide = 1e300;            ///< of its part along the surface, file units
 };
 
 struct WrittenCell {

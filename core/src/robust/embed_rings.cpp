@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "embed_rings.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace quadmark::robust {
 namespace {
+
+// Lattice step that is wanted on the surface, of the diagonal: noise of 1e-3 of the diagonal then leaves a third of a
+// vote's amplitude.
+constexpr double kWantedStep = 0.0027;
 
 // How far to go along `axis` from p to meet the fan of `apex`; the nearest meeting, 0 where the axis misses it.
 double toFan(const Vec3& p, const Vec3& axis, const Vec3& apex, const std::vector<double>& positions,
@@ -42,6 +48,19 @@ bool vetoed(const Vec3& from, const Vec3& to, const std::vector<double>& positio
 
 }  // namespace
 
+double chooseRingStep(const Carriers& carriers, const std::vector<double>& positions, const SymmetricTensor& tensor,
+                      double diagonal) {
+  std::vector<double> radii;
+  RingFrame frame;
+  for (std::uint32_t i = 0; i < carriers.count(); ++i)
+    if (ringFrame(positions, carriers.ring(i), tensor, frame)) radii.push_back(frame.radius);
+  if (radii.empty()) return kRingSteps[0];
+  std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
+  for (const double step : kRingSteps)
+    if (step * radii[radii.size() / 2] >= kWantedStep * diagonal) return step;
+  return kRingSteps[std::size(kRingSteps) - 1];
+}
+
 std::vector<std::uint32_t> embedRings(const Carriers& carriers, const RingCode& code, const CodedPayload& payload,
                                       const SymmetricTensor& tensor, const RingLimits& limits,
                                       std::vector<double>& positions) {
@@ -59,11 +78,12 @@ std::vector<std::uint32_t> embedRings(const Carriers& carriers, const RingCode& 
       const RingSlot slot = code.slot(carriers.label[i], k);
       const auto& bits = slot.stream(sharing) == Stream::head ? payload.head : payload.body;
       const bool bit = (bits[slot.index % bits.size()] != 0) != slot.pad;
-      *coordinate[k] = nearestLatticePoint(*coordinate[k], kRingStep, slot.offset, bit);
+      *coordinate[k] = nearestLatticePoint(*coordinate[k], limits.step, slot.offset, bit);
     }
     Vec3 to = pointAt(frame, p);
     to += toFan(to, frame.e3, from, positions, ring) * frame.e3;
-    if (limits.maxMove > 0 && length(to - from) > limits.maxMove) continue;
+    const Vec3 move = to - from, normal = normalized(cross(frame.e1, frame.e2));
+    if (length(move) > limits.maxMove || length(move - dot(move, normal) * normal) > limits.maxSlide) continue;
     if (vetoed(from, to, positions, ring, limits)) continue;
     put(positions, carriers.vertex[i], to);
     written.push_back(i);

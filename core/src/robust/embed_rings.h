@@ -12,12 +12,18 @@
 namespace quadmark::robust {
 
 struct RingLimits {
-  double maxCoordinate = 0.7;  ///< carriers off-centre by more ring radii are left alone
-  double creaseCosine = 0;     ///< cosine of the largest dihedral angle in a carrier's fan
-  double turnCosine = 0.5;     ///< cosine of the largest turn of a fan triangle
-  double leastArea = 0.05;     ///< a fan triangle keeps at least this share of its area
-  double maxMove = 0;          ///< file units; 0 = no limit
+  double step = kRingSteps[0];  ///< of the lattice
+  double maxCoordinate = 0.7;   ///< carriers off-centre by more ring radii are left alone
+  double creaseCosine = 0;      ///< cosine of the largest dihedral angle in a carrier's fan
+  double turnCosine = 0.5;      ///< cosine of the largest turn of a fan triangle
+  double leastArea = 0.05;      ///< a fan triangle keeps at least this share of its area
+  double maxMove = 1e300;       ///< of any vertex, file units
+  double maxSlide = 1e300;      ///< of its part along the surface, file units
 };
+
+/// The least of kRingSteps that makes the lattice coarse enough for the model's typical ring.
+[[nodiscard]] double chooseRingStep(const Carriers& carriers, const std::vector<double>& positions,
+                                    const SymmetricTensor& tensor, double diagonal);
 
 /// Moves carriers of `positions` in place; the lattice coordinates change, the third one follows the old surface.
 /// @return the carriers written, ascending.

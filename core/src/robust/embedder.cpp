@@ -6,28 +6,62 @@
 #include "embed_diamonds.h"
 #include "embed_rings.h"
 #include "quadmark/random.h"
+#include "quadmark/trig.h"
 
 namespace quadmark::robust {
 namespace {
 
-// Cosines of the angles that limits are given by.
-constexpr double kCos20 = 0.93969262078590838, kCos35 = 0.81915204428899180, kCos60 = 0.5;
-
 struct Preset {
   RingLimits ring;
   DiamondLimits diamond;
+  double mostStep;     ///< of layer A's lattice, ring radii
+  double maxError;     ///< of the diagonal
+  double concealment;  ///< jitter of cells that were not flat, of the diagonal
 };
 
+double cosineOf(double degrees) {
+  return sinCosTurns(degrees / 360).cos;
+}
+
+// What each strength spends. Distortion and survival of each are in docs/robust.md.
 Preset presetOf(Strength strength) {
+  struct Row {
+    double step, crease, ringTurn, gap, sharp, cellTurn, farQuota, mostFar, maxError, concealment;
+  };
+  static constexpr Row kRows[] = {
+      {0.5, 12, 5, 0.012, 35, 4, 0.03, 6, 2e-3, 1e-5},     // invisible
+      {0.7, 25, 12, 0.04, 35, 12, 0.075, 10, 6e-3, 1e-5},  // standard
+      {0.9, 35, 20, 0.1, 60, 20, 0.135, 100, 1.5e-2, 0},   // strong
+  };
+  const Row& row = kRows[static_cast<int>(strength)];
   Preset out;
-  out.ring.creaseCosine = kCos20;
-  out.ring.turnCosine = kCos60;
-  out.diamond.turnCosine = kCos20;
-  out.diamond.mostGap = strength == Strength::strong ? 0.1 : 0.05;
-  out.diamond.sharpCosine = strength == Strength::strong ? kCos60 : kCos35;
-  out.diamond.farQuota = strength == Strength::strong ? 0.135 : 0.075;
-  out.diamond.mostFar = strength == Strength::strong ? 100 : 10;
+  out.ring.creaseCosine = cosineOf(row.crease);
+  out.ring.turnCosine = cosineOf(row.ringTurn);
+  out.diamond.mostGap = row.gap;
+  out.diamond.sharpCosine = cosineOf(row.sharp);
+  out.diamond.turnCosine = cosineOf(row.cellTurn);
+  out.diamond.farQuota = row.farQuota;
+  out.diamond.mostFar = row.mostFar;
+  out.mostStep = row.step;
+  out.maxError = row.maxError;
+  out.concealment = row.concealment;
   return out;
+}
+
+// Exactly flat quadrilaterals are a beacon that needs no key. Cells that were not flat before get a gap of the size
+// that 14-bit quantization gives them anyway, which the reader hardly notices.
+void conceal(const std::vector<WrittenCell>& cells, const std::vector<Diamond>& diamonds, const Prf& prf,
+             double amplitude, std::vector<double>& positions) {
+  for (const WrittenCell& cell : cells) {
+    if (!(cell.naturalGap > 2 * amplitude)) continue;
+    const Diamond& q = diamonds[cell.diamond];
+    Random random(prf(std::uint64_t{cell.meaning} << 32 | q.b));
+    for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) {
+      const Vec3 p = at(positions, v);
+      const double x = random.uniform(-amplitude, amplitude), y = random.uniform(-amplitude, amplitude);
+      put(positions, v, {p.x + x, p.y + y, p.z + random.uniform(-amplitude, amplitude)});
+    }
+  }
 }
 
 // Half the noise of 14-bit quantization, of the extent: the mark's natural enemy sets the scale of fine cells.
@@ -76,7 +110,12 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   const Error aborted{ErrorCode::aborted, "cancelled by the caller"};
 
   Preset preset = presetOf(options.strength);
-  preset.ring.maxMove = preset.diamond.maxMove = options.maxErrorRel * diagonal;
+  // The jitter comes on top of a cell's own displacement.
+  const double maxError = options.maxErrorRel > 0 ? options.maxErrorRel : preset.maxError;
+  preset.concealment = std::min(preset.concealment, maxError / 4);
+  preset.ring.maxMove = maxError * diagonal;
+  preset.diamond.maxMove = (maxError - 2 * preset.concealment) * diagonal;
+  if (options.maxSlideRel > 0) preset.ring.maxSlide = preset.diamond.maxSlide = options.maxSlideRel * diagonal;
   if (cancelled("surface", 0)) return aborted;
   const Surface surface = makeSurface(mesh);
   const Carriers carriers = selectCarriers(surface, Prf(keys.select));
@@ -94,11 +133,14 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   const DiamondEmbedding cells =
       embedDiamonds(surface, diamonds, constellation, payload, preset.diamond, occupied, positions);
 
+  conceal(cells.cells, diamonds, Prf(keys.assignment), preset.concealment * diagonal, positions);
+
   // 2. Layer A.
   if (cancelled("rings", 0.8)) return aborted;
   const RingCode code(keys);
-  const std::vector<std::uint32_t> written =
-      embedRings(carriers, code, payload, edgeTensor(surface, positions), preset.ring, positions);
+  const SymmetricTensor tensor = edgeTensor(surface, positions);
+  preset.ring.step = std::min(preset.mostStep, chooseRingStep(carriers, positions, tensor, diagonal));
+  const std::vector<std::uint32_t> written = embedRings(carriers, code, payload, tensor, preset.ring, positions);
 
   // 3. Back to the file's vertices and precision.
   out.positions = mesh.positions;

@@ -2,6 +2,7 @@
 // Connectivity signatures of vertices: names that no motion of the vertices changes (layer A).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,7 +12,7 @@
 namespace quadmark::robust {
 
 /// Brings a ring into the order of its least sequence of names over all rotations and both senses.
-/// @param ring   2 * kMaxRing at most.
+/// @param ring   kMaxRing vertices at most.
 /// @param names  one per vertex of the surface.
 /// @param order  receives the ring in canonical order; at least ring.size() long.
 /// @param hash   receives a hash of that sequence, which neither file order nor mirroring changes.
@@ -19,15 +20,21 @@ namespace quadmark::robust {
 bool canonicalRing(std::span<const std::uint32_t> ring, std::span<const std::uint64_t> names, std::uint32_t* order,
                    std::uint64_t& hash);
 
-struct Labels {
-  std::vector<std::uint64_t> label;  ///< per welded vertex; 0 = none
-  std::vector<std::uint64_t> below;  ///< the names one level down, by which rings are ordered
-};
-
-/// Rounds of refinement, starting from corner counts: a vertex is told apart by the connectivity of this many rings.
+/// Rounds of refinement at most: a vertex is told apart by the connectivity of this many rings around it.
 inline constexpr int kLabelDepth = 4;
 
-/// Labels of all vertices whose neighbourhoods are closed for kLabelDepth rings; 0 for the others.
+/// Names of all vertices, level by level, and each vertex's label: its name at the least level (2 or more) at which its
+/// ring has a unique order and enough irregular vertices lie around. Simplification cuts names that reach far, so each
+/// vertex is named by as small a neighbourhood as can tell it apart.
+struct Labels {
+  std::vector<std::uint64_t> label;  ///< per welded vertex; 0 = none, its neighbourhood has a border too near
+  std::vector<std::uint8_t> depth;   ///< level of the label
+  std::array<std::vector<std::uint64_t>, kLabelDepth> names;  ///< of levels 0 .. kLabelDepth - 1
+
+  /// The canonical order of a labelled vertex's ring; false where it is not unique.
+  [[nodiscard]] bool orderRing(const Surface& surface, std::uint32_t vertex, std::uint32_t* order) const;
+};
+
 [[nodiscard]] Labels refineLabels(const Surface& surface);
 
 }  // namespace quadmark::robust

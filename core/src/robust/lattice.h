@@ -62,4 +62,8 @@ inline double latticeVote(double coordinate, double step, double offset) {
   return 1 - 4 * std::fabs(x);
 }
 
+/// Steps of the lattice, in ring radii: the embedder takes larger ones where rings are small, so that noise of one size
+/// for the whole model does as little harm there as elsewhere; the reader tries all.
+inline constexpr double kRingSteps[] = {0.5, 0.7, 0.9};
+
 }  // namespace quadmark::robust

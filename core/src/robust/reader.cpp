@@ -12,8 +12,10 @@ namespace quadmark::robust {
 namespace {
 
 // Vertex noise assumed, of the largest extent, likeliest first.
-constexpr double kRingSigmas[] = {1e-4, 4e-4, 1e-3, 1e-6};
+constexpr double kRingSigmas[] = {1e-4, 4e-4, 1e-3, 2e-5};
 constexpr double kDiamondSigmas[] = {1e-5, 1.8e-5, 3e-6, 4e-8, 4e-5, 8e-5};
+// Noise at which lattice steps are compared where no level is given: a tolerant one, as sharper peaks may be missed.
+constexpr double kStepSigma = 4e-4;
 constexpr double kSharpenings[] = {0.1, 0.3, 0.6, 1.0};
 constexpr std::uint8_t kHeadOnlyClasses[] = {0, 1, 2}, kSplitClasses[] = {0, 3, 4};
 
@@ -22,31 +24,49 @@ template <class Visit>
 bool forEachHypothesis(const ReadLimits& limits, const Visit& visit) {
   std::uint32_t number = 0;
   const int sharings = limits.trySplit ? 2 : 1;
-  const auto offer = [&](Layers layers, int sharing, std::uint8_t deltaClass, double ring, double diamond,
-                         double sharp) {
-    return visit(Hypothesis{layers, static_cast<Sharing>(sharing), deltaClass, ring, diamond, sharp, ++number});
+  const auto offer = [&](Hypothesis h, int sharing) {
+    h.sharing = static_cast<Sharing>(sharing);
+    h.number = ++number;
+    return visit(h);
+  };
+  const auto ring = [](double sigma, int rank, double sharpening) {
+    Hypothesis h;
+    h.ringSigma = sigma, h.ringRank = static_cast<std::uint8_t>(rank), h.sharpening = sharpening;
+    return h;
+  };
+  const auto diamonds = [](double sigma, std::uint8_t deltaClass) {
+    Hypothesis h;
+    h.layers = Layers::diamonds, h.diamondSigma = sigma, h.deltaClass = deltaClass;
+    return h;
   };
   const auto classes = [](int sharing) -> const std::uint8_t(&)[3] {
     return sharing == 0 ? kHeadOnlyClasses : kSplitClasses;
   };
   for (int sharing = 0; sharing < sharings; ++sharing)
     for (const double sigma : kRingSigmas)
-      if (offer(Layers::ring, sharing, 0, sigma, 0, 0)) return true;
+      if (offer(ring(sigma, 0, 0), sharing)) return true;
   for (int late = 0; late < 2; ++late)
     for (int sharing = 0; sharing < sharings; ++sharing)
       for (const std::uint8_t deltaClass : classes(sharing))
         for (std::size_t i = late == 0 ? 0 : 2; i < (late == 0 ? 2 : std::size(kDiamondSigmas)); ++i)
-          if (offer(Layers::diamonds, sharing, deltaClass, 0, kDiamondSigmas[i], 0)) return true;
+          if (offer(diamonds(kDiamondSigmas[i], deltaClass), sharing)) return true;
   if (!limits.tryHarder) return false;
   for (int sharing = 0; sharing < sharings; ++sharing)
-    for (int i = 0; i < 2; ++i)
+    for (int rank = 1; rank < static_cast<int>(std::size(kRingSteps)); ++rank)
+      for (const double sigma : kRingSigmas)
+        if (offer(ring(sigma, rank, 0), sharing)) return true;
+  for (int sharing = 0; sharing < sharings; ++sharing)
+    for (const double ringSigma : {1e-4, 4e-4})
       for (const std::uint8_t deltaClass : classes(sharing))
-        for (const double sigma : kDiamondSigmas)
-          if (offer(Layers::both, sharing, deltaClass, kRingSigmas[i], sigma, 0)) return true;
+        for (const double sigma : kDiamondSigmas) {
+          Hypothesis h = diamonds(sigma, deltaClass);
+          h.layers = Layers::both, h.ringSigma = ringSigma;
+          if (offer(h, sharing)) return true;
+        }
   for (const double sharpening : kSharpenings)
     for (int sharing = 0; sharing < sharings; ++sharing)
       for (const double sigma : kRingSigmas)
-        if (offer(Layers::ring, sharing, 0, sigma, 0, sharpening)) return true;
+        if (offer(ring(sigma, 0, sharpening), sharing)) return true;
   return false;
 }
 
@@ -61,7 +81,8 @@ struct MeshReader::State {
   Carriers carriers;
   RingCode ringCode;
   ReaderCoverage coverage;
-  std::map<double, RingVotes> ringVotes;  // by sharpening
+  std::map<double, RingVotes> ringVotes;                                // by sharpening
+  std::map<std::pair<double, double>, std::vector<double>> stepsByFit;  // by sharpening and sigma
   std::unique_ptr<DiamondVotes> diamondVotes;
   std::map<std::pair<std::uint8_t, double>, CellScores> scores;  // by delta class and sigma
 
@@ -88,6 +109,18 @@ struct MeshReader::State {
         .first->second;
   }
 
+  // The lattice step of a rank by fit. @param sigma  of the extent.
+  double ringStep(double sharpening, double sigma, std::size_t rank) {
+    const auto [place, isNew] = stepsByFit.try_emplace({sharpening, sigma});
+    if (isNew) {
+      std::vector<std::pair<double, double>> fits;  // ascending by -fit, then by step
+      for (const double step : kRingSteps) fits.push_back({-rings(sharpening).fit({step, sigma * extent}), step});
+      std::sort(fits.begin(), fits.end());
+      for (const auto& fit : fits) place->second.push_back(fit.second);
+    }
+    return place->second[std::min(rank, std::size(kRingSteps) - 1)];
+  }
+
   const CellScores& cells(std::uint8_t deltaClass, double sigma) {
     if (!diamondVotes) {
       std::vector<double> sigmas;
@@ -104,7 +137,9 @@ struct MeshReader::State {
   std::vector<float> ratios(const Hypothesis& h, Stream stream, const StreamCode& body) {
     const StreamSelection selection{h.sharing, stream, stream == Stream::head ? head.bits : body.bits};
     std::vector<float> out(selection.bits, 0.0f);
-    if (h.layers != Layers::diamonds) rings(h.sharpening).addRatios(h.ringSigma * extent, selection, out);
+    if (h.layers != Layers::diamonds)
+      rings(h.sharpening)
+          .addRatios({ringStep(h.sharpening, h.ringSigma, h.ringRank), h.ringSigma * extent}, selection, out);
     if (h.layers != Layers::ring)
       DiamondVotes::addRatios(Constellation(h.deltaClass, keys, h.sharing, head, body),
                               cells(h.deltaClass, h.diamondSigma), stream, out);
@@ -142,8 +177,9 @@ Agreement MeshReader::ringAgreement(const CodedPayload& expected, double sharpen
   Agreement out;
   const Sharing sharing = expected.hasBody() ? Sharing::split : Sharing::headOnly;
   const RingVotes& votes = state_->rings(sharpening);
-  votes.countAgreement({sharing, Stream::head, 0}, expected.head, out);
-  votes.countAgreement({sharing, Stream::body, 0}, expected.body, out);
+  const double step = state_->ringStep(sharpening, kStepSigma, 0);
+  votes.countAgreement(step, {sharing, Stream::head, 0}, expected.head, out);
+  votes.countAgreement(step, {sharing, Stream::body, 0}, expected.body, out);
   return out;
 }
 
@@ -167,7 +203,9 @@ Agreement MeshReader::diamondAgreement(const CodedPayload& expected, const Hypot
 std::vector<float> MeshReader::evidence(const CodedPayload& payload, const Hypothesis& hypothesis) {
   State& s = *state_;
   std::vector<float> perWelded(s.surface.vertexCount(), 0.0f);
-  const std::vector<float> perCarrier = s.rings(hypothesis.sharpening).agreementPerCarrier(payload);
+  const double sigma = hypothesis.layers == Layers::diamonds ? kStepSigma : hypothesis.ringSigma;
+  const double step = s.ringStep(hypothesis.sharpening, sigma, hypothesis.ringRank);
+  const std::vector<float> perCarrier = s.rings(hypothesis.sharpening).agreementPerCarrier(step, payload);
   for (std::size_t i = 0; i < perCarrier.size(); ++i) perWelded[s.carriers.vertex[i]] = perCarrier[i];
   if (hypothesis.layers != Layers::ring) {
     const Sharing sharing = payload.hasBody() ? Sharing::split : Sharing::headOnly;

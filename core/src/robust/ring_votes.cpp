@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: MIT
+// A coordinate is a mixture: with some probability, the same for all, its carrier is still what it was and the
+// coordinate lies on a lattice, up to noise; otherwise it may be anywhere. After simplification one carrier in twenty
+// is left, and it is the narrow peak that finds it. Tried: votes linear in the distance from the lattices, which drown
+// in what is left of the others (coded bit error rate of the bunny at .9 and 12 bits .26 instead of .11).
 #include "ring_votes.h"
 
 #include <algorithm>
 #include <numeric>
 
+#include "likelihood.h"
+#include "quadmark/exact_math.h"
+#include "quadmark/trig.h"
+
 namespace quadmark::robust {
 namespace {
 
-// Expected amplitude of a vote under vertex noise: exp(-2 pi^2 s^2) of the lattice's first harmonic, as 1 / Taylor of
-// its inverse; 1.2 because the ring moves too, 0.85 for carriers that the embedder could not write.
-double amplitude(double sigma, double radius) {
-  const double s = 1.2 * sigma / (radius * kRingStep), q = 19.739208802178716 * s * s;
-  return 0.85 / (1 + q * (1 + q * (0.5 + q * (1.0 / 6 + q / 24))));
-}
+constexpr double kMostPerLabel = 6;  // bound of one label's log-likelihood ratio
+constexpr double kOwnSpread = 0.01;  // steps: rounding, and what the ring's later moves did
+constexpr double kRingGain = 1.2;    // the ring moves under noise, too
+constexpr double kTwoPiSquared = 19.739208802178716;
 
-constexpr double kVoteVariance = 0.353;  // 1/3 of a uniform coordinate's votes, and a little for the model's faults
-constexpr double kMostPerLabel = 3;      // bound of one label's vote; its exact value is irrelevant (m)
-constexpr double kFaintest = 0.002;      // amplitudes below this are left out
+double peak(double x, double spread) {
+  const double z = x / spread;
+  return gaussian(z * z) / (spread * kRootTwoPi);
+}
 
 }  // namespace
 
@@ -33,70 +40,115 @@ RingVotes::RingVotes(const Carriers& carriers, const RingCode& code, const std::
   for (const std::uint32_t c : order) {
     RingFrame frame;
     if (!ringFrame(positions, carriers.ring(c), tensor, frame)) continue;
-    const auto at = static_cast<std::uint32_t>(samples_.size());
+    const auto index = static_cast<std::uint32_t>(samples_.size());
     if (labels_.empty() || carriers.label[c] != current) {
       current = carriers.label[c];
-      labels_.push_back({{code.slot(current, 0), code.slot(current, 1)}, at, at});
+      labels_.push_back({{code.slot(current, 0), code.slot(current, 1)}, index, index});
     }
-    Label& label = labels_.back();
-    const RingCoordinates p = coordinatesIn(frame, quadmark::at(positions, carriers.vertex[c]));
-    const double coordinate[2] = {p.alpha, p.beta};
-    Sample sample{};
-    for (int k = 0; k < 2; ++k) {
-      const double vote = latticeVote(coordinate[k], kRingStep, label.slot[k].offset);
-      sample.vote[k] = static_cast<float>(label.slot[k].pad ? -vote : vote);
-    }
-    sample.radius = static_cast<float>(frame.radius);
-    sample.carrier = c;
-    samples_.push_back(sample);
-    label.end = at + 1;
+    const RingCoordinates p = coordinatesIn(frame, at(positions, carriers.vertex[c]));
+    samples_.push_back(
+        {{static_cast<float>(p.alpha), static_cast<float>(p.beta)}, static_cast<float>(frame.radius), c});
+    labels_.back().end = index + 1;
   }
 }
 
-void RingVotes::addRatios(double sigma, const StreamSelection& selection, std::vector<float>& ratios) const {
-  if (selection.bits == 0) return;
-  for (const Label& label : labels_) {
-    double sum[2] = {0, 0};
+double RingVotes::vote(const Sample& sample, const Label& label, int coordinate, double step) const {
+  const RingSlot& slot = label.slot[coordinate];
+  const double vote = latticeVote(sample.coordinate[coordinate], step, slot.offset);
+  return slot.pad ? -vote : vote;
+}
+
+// Wrapped normal distributions around the two lattices, half a step apart.
+// @param distance  from the lattice of 0, steps, 0..0.5.
+RingVotes::Densities RingVotes::densitiesAt(double distance, double spread) {
+  if (spread < 0.2)
+    return {peak(distance, spread) + peak(1 - distance, spread),
+            peak(0.5 - distance, spread) + peak(0.5 + distance, spread)};
+  // Wide peaks overlap: their Fourier series converges at once.
+  const double q = exactExp(-kTwoPiSquared * spread * spread), q4 = q * q * q * q;
+  const double first = sinCosTurns(distance).cos, second = 2 * first * first - 1;
+  return {1 + 2 * q * first + 2 * q4 * second, 1 - 2 * q * first + 2 * q4 * second};
+}
+
+std::vector<RingVotes::Densities> RingVotes::densities(const RingView& view) const {
+  std::vector<Densities> out(2 * samples_.size());
+  for (const Label& label : labels_)
     for (std::uint32_t i = label.begin; i < label.end; ++i) {
-      const double weight = amplitude(sigma, samples_[i].radius);
-      if (weight < kFaintest) continue;
-      for (int k = 0; k < 2; ++k) sum[k] += weight * samples_[i].vote[k];
+      const double noise = kRingGain * view.sigma / (samples_[i].radius * view.step);
+      const double spread = std::sqrt(noise * noise + kOwnSpread * kOwnSpread);
+      for (int k = 0; k < 2; ++k)
+        out[2 * i + k] = densitiesAt(0.25 * (1 - vote(samples_[i], label, k, view.step)), spread);
     }
+  return out;
+}
+
+// The share of carriers that still are what they were, by expectation maximisation of that one number.
+double RingVotes::estimateShare(const std::vector<Densities>& densities) {
+  double share = 0.5;
+  for (int step = 0; step < 12 && !densities.empty(); ++step) {
+    double sum = 0;
+    for (const Densities& d : densities) {
+      const double marked = share * 0.5 * (d.zero + d.one);
+      sum += marked / (1 - share + marked);
+    }
+    share = std::clamp(sum / static_cast<double>(densities.size()), 0.003, 0.98);
+  }
+  return share;
+}
+
+void RingVotes::addRatios(const RingView& view, const StreamSelection& selection, std::vector<float>& ratios) const {
+  if (selection.bits == 0) return;
+  const std::vector<Densities> all = densities(view);
+  const double share = estimateShare(all);
+  for (const Label& label : labels_)
     for (int k = 0; k < 2; ++k) {
       if (label.slot[k].stream(selection.sharing) != selection.stream) continue;
-      const double bounded = std::clamp(sum[k] / kVoteVariance, -kMostPerLabel, kMostPerLabel);
-      ratios[label.slot[k].index % selection.bits] += static_cast<float>(2 * bounded);
+      double sum = 0;
+      for (std::uint32_t i = label.begin; i < label.end; ++i) {
+        const Densities& d = all[2 * i + k];
+        sum += exactLog((1 - share + share * d.zero) / (1 - share + share * d.one));
+      }
+      ratios[label.slot[k].index % selection.bits] +=
+          static_cast<float>(std::clamp(sum, -kMostPerLabel, kMostPerLabel));
     }
-  }
 }
 
-void RingVotes::countAgreement(const StreamSelection& selection, const std::vector<std::uint8_t>& expected,
+double RingVotes::fit(const RingView& view) const {
+  const std::vector<Densities> all = densities(view);
+  const double share = estimateShare(all);
+  double sum = 0;
+  for (const Densities& d : all) sum += exactLog(1 - share + share * 0.5 * (d.zero + d.one));
+  return sum;
+}
+
+void RingVotes::countAgreement(double step, const StreamSelection& selection, const std::vector<std::uint8_t>& expected,
                                Agreement& out) const {
   if (expected.empty()) return;
   for (const Label& label : labels_)
     for (int k = 0; k < 2; ++k) {
       if (label.slot[k].stream(selection.sharing) != selection.stream) continue;
       double sum = 0;
-      for (std::uint32_t i = label.begin; i < label.end; ++i) sum += samples_[i].vote[k];
+      for (std::uint32_t i = label.begin; i < label.end; ++i) sum += vote(samples_[i], label, k, step);
       if (sum == 0) continue;
       ++out.votes;
       out.agreeing += (sum < 0) == (expected[label.slot[k].index % expected.size()] != 0);
     }
 }
 
-std::vector<float> RingVotes::agreementPerCarrier(const CodedPayload& expected) const {
+std::vector<float> RingVotes::agreementPerCarrier(double step, const CodedPayload& expected) const {
   const Sharing sharing = expected.hasBody() ? Sharing::split : Sharing::headOnly;
   std::vector<float> out;
   for (const Label& label : labels_)
     for (std::uint32_t i = label.begin; i < label.end; ++i) {
-      float sum = 0;
+      double sum = 0;
       for (int k = 0; k < 2; ++k) {
         const auto& bits = label.slot[k].stream(sharing) == Stream::head ? expected.head : expected.body;
         if (bits.empty()) continue;
-        sum += bits[label.slot[k].index % bits.size()] != 0 ? -samples_[i].vote[k] : samples_[i].vote[k];
+        const double v = vote(samples_[i], label, k, step);
+        sum += bits[label.slot[k].index % bits.size()] != 0 ? -v : v;
       }
       if (out.size() <= samples_[i].carrier) out.resize(samples_[i].carrier + 1, 0.0f);
-      out[samples_[i].carrier] = 0.5f * sum;
+      out[samples_[i].carrier] = static_cast<float>(0.5 * sum);
     }
   return out;
 }

@@ -10,14 +10,17 @@
 
 namespace quadmark::robust {
 
-/// Steps of the lattice, in ring radii.
-inline constexpr double kRingStep = 0.5;
-
 /// Which coded bits a call is about.
 struct StreamSelection {
   Sharing sharing = Sharing::headOnly;
   Stream stream = Stream::head;
   std::uint32_t bits = 0;
+};
+
+/// How layer A is looked at: a lattice step and a noise level.
+struct RingView {
+  double step = kRingSteps[0];
+  double sigma = 0;  ///< vertex noise, standard deviation, file units
 };
 
 /// The coordinates of all carriers, grouped by label: copies of a label speak about the same coded bit and are no
@@ -27,15 +30,20 @@ class RingVotes {
   RingVotes(const Carriers& carriers, const RingCode& code, const std::vector<double>& positions,
             const SymmetricTensor& tensor);
 
-  /// Adds the ratios under vertex noise of standard deviation `sigma` (file units) to `ratios`, selection.bits of them.
-  void addRatios(double sigma, const StreamSelection& selection, std::vector<float>& ratios) const;
+  /// Adds ratios to `ratios`, selection.bits of them.
+  void addRatios(const RingView& view, const StreamSelection& selection, std::vector<float>& ratios) const;
+
+  /// How much better "some coordinates lie on either lattice" explains the carriers than "none does", as a logarithm.
+  /// Looks at no payload, so choosing the best of several steps by it costs no significance.
+  [[nodiscard]] double fit(const RingView& view) const;
 
   /// One vote per label and coordinate, unweighted: does its sign agree with the expected bit?
-  void countAgreement(const StreamSelection& selection, const std::vector<std::uint8_t>& expected,
+  void countAgreement(double step, const StreamSelection& selection, const std::vector<std::uint8_t>& expected,
                       Agreement& out) const;
 
-  /// Per carrier (in the order given) the mean of its two votes for the expected bits, -1..1.
-  [[nodiscard]] std::vector<float> agreementPerCarrier(const CodedPayload& expected) const;
+  /// Per carrier (in the order given, as far as the last one read) the mean of its two votes for the expected bits,
+  /// -1..1.
+  [[nodiscard]] std::vector<float> agreementPerCarrier(double step, const CodedPayload& expected) const;
 
   [[nodiscard]] std::uint32_t labelCount() const { return static_cast<std::uint32_t>(labels_.size()); }
   /// Coded positions of a stream that at least one label speaks about.
@@ -43,7 +51,7 @@ class RingVotes {
 
  private:
   struct Sample {
-    float vote[2];  // latticeVote, pad undone
+    float coordinate[2];
     float radius;
     std::uint32_t carrier;
   };
@@ -51,6 +59,15 @@ class RingVotes {
     RingSlot slot[2];
     std::uint32_t begin, end;  // of its samples
   };
+  // Densities of a coordinate if its carrier holds 0 or 1; 1 is the density of one that holds nothing.
+  struct Densities {
+    double zero, one;
+  };
+  static Densities densitiesAt(double distance, double spread);
+  [[nodiscard]] double vote(const Sample& sample, const Label& label, int coordinate, double step) const;
+  [[nodiscard]] std::vector<Densities> densities(const RingView& view) const;
+  [[nodiscard]] static double estimateShare(const std::vector<Densities>& densities);
+
   std::vector<Sample> samples_;
   std::vector<Label> labels_;
 };

@@ -58,6 +58,7 @@ struct Hypothesis {
   double ringSigma = 0;         ///< vertex noise assumed by layer A, of the largest extent
   double diamondSigma = 0;      ///< the same for layer B
   double sharpening = 0;        ///< total lambda of the Laplacian sharpening undone before reading; 0 for none
+  std::uint8_t ringRank = 0;    ///< layer A's lattice step: the one that fits the model best, second best, third
   std::uint32_t number = 0;     ///< sets of ratios handed out so far, this one included: multiplies every probability
 };
 
