@@ -41,6 +41,11 @@ void sortFour(std::uint32_t ids[4]) {
   order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
 }
 
+bool haveOneOwner(const std::uint32_t ids[4], const std::vector<std::uint32_t>& ownerOf) {
+  const std::uint32_t owner = ownerOf[ids[0]];
+  return owner != kNoVertex && ownerOf[ids[1]] == owner && ownerOf[ids[2]] == owner && ownerOf[ids[3]] == owner;
+}
+
 }  // namespace
 
 double Rounding::unit(const double* const points[4], double longerDiagonal) const {
@@ -89,7 +94,8 @@ void keepNearest(std::vector<std::uint32_t>& members, std::uint32_t seed, const 
 
 void forEachCoplanarSet(const WeldedMesh& welded, const std::vector<double>& positions, int k, const Rounding& rounding,
                         const GapLimit& limit, const std::vector<std::uint8_t>& skip,
-                        const std::function<void(const Quad&)>& visit, const std::vector<std::uint32_t>* seeds) {
+                        const std::function<void(const Quad&)>& visit, const std::vector<std::uint32_t>* seeds,
+                        const std::vector<std::uint32_t>* ownerOf) {
   UniqueSets unique(welded.vertexCount());
   std::vector<std::uint32_t> members;
   RingSets ring;
@@ -109,6 +115,7 @@ void forEachCoplanarSet(const WeldedMesh& welded, const std::vector<double>& pos
     const double largest = 1.0001 * reach * 4 * radius2;
     ring.forEach(largest, [&](int a, int b, int c, int d, double) {
       std::uint32_t ids[4] = {ring.vertex(a), ring.vertex(b), ring.vertex(c), ring.vertex(d)};
+      if (ownerOf != nullptr && haveOneOwner(ids, *ownerOf)) return;
       sortFour(ids);
       if (!unique.insert(ids)) return;  // cheaper than the geometry, and a cell is seen from four seeds on average
       Quad quad;

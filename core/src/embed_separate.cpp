@@ -102,10 +102,7 @@ void Embedder::separate() {
   for (int round = 0; round <= kRounds; ++round) {
     std::vector<Quad> unwanted;
     forEachCoplanarSet(welded_, positions_, key_.params.k, rounding_, {kUnwantedUnits, 1.0}, {},
-                       [&](const Quad& set) {
-                         if (!isCell(set)) unwanted.push_back(set);
-                       },
-                       round == 0 ? nullptr : &seeds);
+                       [&](const Quad& set) { unwanted.push_back(set); }, round == 0 ? nullptr : &seeds, &cellOf_);
     separated_ = unwanted.empty();
     if (separated_) return;
     if (round == kRounds) return;  // only to know whether the last round was enough

@@ -83,7 +83,7 @@ class Extractor {
   bool pass(double units, double previous) {
     const double cap = previous == 0 ? 0 : key_.params.tau;
     CandidateList candidates;
-    PurityTable table;
+    PurityTable table(previous == 0 ? welded_.vertexCount() / 5 : 0);
     bool reachedAny = previous == 0;
     forEachSet({units, cap}, [&](const Quad& quad) {
       const double unit = rounding_.unit(quad, positions_.data()), gapUnits = quad.gap / unit;

@@ -19,7 +19,11 @@ std::uint64_t mix(std::uint64_t x) {
 
 }  // namespace
 
-PurityTable::PurityTable() : seen_(1024, 0) {}
+PurityTable::PurityTable(std::size_t expected) {
+  std::size_t capacity = 1024;
+  while (capacity < 2 * expected) capacity *= 2;
+  seen_.assign(capacity, 0);
+}
 
 int PurityTable::kind(double units, const Reading& reading) {
   int flatness = 0;

@@ -24,7 +24,8 @@ class PurityTable {
  public:
   static constexpr int kFlatness = 24, kCentrality = 5;
 
-  PurityTable();
+  /// @param expected  readings to come, about: saves growing.
+  explicit PurityTable(std::size_t expected = 0);
 
   /// Kind of a reading: `units` = gap in rounding units.
   [[nodiscard]] static int kind(double units, const Reading& reading);

@@ -60,10 +60,13 @@ struct GapLimit {
 /// @param positions  3 per welded vertex; need not be welded.positions.
 /// @param skip       empty, or one byte per vertex: sets with a marked vertex are left out.
 /// @param seeds      only these neighbourhoods; nullptr for all.
+/// @param ownerOf    per vertex, kNoVertex for none: sets whose four vertices have one owner are left out; nullptr for
+///                   no such rule.
 /// Cost: linear for small gaps, about 0.2 microseconds per vertex.
 void forEachCoplanarSet(const WeldedMesh& welded, const std::vector<double>& positions, int k, const Rounding& rounding,
                         const GapLimit& limit, const std::vector<std::uint8_t>& skip,
                         const std::function<void(const Quad&)>& visit,
-                        const std::vector<std::uint32_t>* seeds = nullptr);
+                        const std::vector<std::uint32_t>* seeds = nullptr,
+                        const std::vector<std::uint32_t>* ownerOf = nullptr);
 
 }  // namespace quadmark
