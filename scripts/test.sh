@@ -4,7 +4,7 @@
 # fails. Logs are left in build/logs/.
 #
 #   scripts/test.sh          everything (about 20 minutes on two cores, from a fresh clone)
-#   scripts/test.sh --quick  without the sanitizer build
+#   scripts/test.sh --quick  without the sanitizer build and the fuzzers
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -60,6 +60,7 @@ asan_tests() {
   ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1 \
     ctest --preset asan --parallel "$(nproc)"
 }
+fuzz_short() { scripts/fuzz.sh --short; }
 wasm_tests() {
   # Emscripten 3.1.6 mistakes Node's fetch for a browser's.
   node --no-experimental-fetch build/wasm/native_tests/quadmark_tests.js --gtest_brief=0
@@ -97,12 +98,13 @@ else
 fi
 if [ $quick = no ]; then
   if step "build with sanitizers" build_asan; then step "native tests with sanitizers" asan_tests; else skip "native tests with sanitizers" "not built"; fi
+  step "fuzzers, a short run" fuzz_short
 fi
 
 echo
 echo "Summary"
 printf '  %s\n' "${summary[@]}"
-[ $quick = no ] || echo "  (--quick: no sanitizers)"
+[ $quick = no ] || echo "  (--quick: no sanitizers, no fuzzers)"
 if grep -qsE 'not tested|is not in .*QUADMARK_MODELS' $logs/*.log; then
   echo "  Note: $(grep -hsE 'real models? .* was not tested' $logs/*.log | sort -u | wc -l) parts with real models were not tested: set QUADMARK_MODELS to their folder"
 fi
