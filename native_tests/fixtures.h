@@ -99,7 +99,7 @@ inline Searched searched(const Mesh& mesh, const PaperParams& params = {}) {
 /// Welds a mesh as it stands and reads it.
 inline Extraction readMark(const Mesh& mesh, const Key& key, const ExtractOptions& options = {}) {
   const WeldedMesh welded = weld(mesh);
-  return extractMesh(welded, welded.positions, roundingOf(mesh.precision), key, options);
+  return extractMesh(welded, welded.positions, roundingOf(mesh.precision, welded), key, options);
 }
 
 /// Every bit right, none erased.

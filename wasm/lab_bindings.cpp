@@ -45,6 +45,7 @@ val attackModel(const val& file, const val& resourceEntries, const val& request)
   const std::vector<std::uint8_t> bytes = bytesFrom(file);
   auto model = readModel(bytes, resourcesFrom(resourceEntries));
   if (!model) return failure(model.error());
+  (*model)->mesh().gridOf.clear();  // what attacks write are floats
   auto attacked = lab::attack((*model)->mesh(), spec);
   if (!attacked) return failure(attacked.error());
   val result = val::object();

@@ -91,6 +91,23 @@ void weldPositions(const Mesh& mesh, WeldedMesh& out) {
   out.positions.shrink_to_fit();
 }
 
+// Twins move together, so what they can become is what the grids of all of them can store.
+void weldGrids(const Mesh& mesh, WeldedMesh& out) {
+  if (mesh.gridOf.empty()) return;
+  constexpr std::uint8_t kUnknown = 254;
+  out.gridOf.assign(out.vertexCount(), kUnknown);
+  out.halfStep.assign(out.vertexCount(), 0);
+  for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+    const std::uint32_t w = out.weldedOf[v];
+    if (w == kNoVertex) continue;
+    const CoordinateGrid* grid = mesh.grid(v);
+    std::uint8_t& found = out.gridOf[w];
+    const bool differs = found != kUnknown && found != mesh.gridOf[v];
+    found = differs || (grid != nullptr && grid->low == grid->high) ? kFixed : mesh.gridOf[v];
+    if (grid != nullptr) out.halfStep[w] = std::max(out.halfStep[w], 0.5 * grid->step());
+  }
+}
+
 template <class Visit>
 void forEachEdge(const Mesh& mesh, const WeldedMesh& welded, const Visit& visit) {
   const std::size_t faces = mesh.faceCount();
@@ -147,6 +164,7 @@ void collectEdges(const Mesh& mesh, WeldedMesh& out) {
 WeldedMesh weld(const Mesh& mesh) {
   WeldedMesh out;
   weldPositions(mesh, out);
+  weldGrids(mesh, out);
   collectEdges(mesh, out);
   return out;
 }

@@ -48,22 +48,30 @@ bool haveOneOwner(const std::uint32_t ids[4], const std::vector<std::uint32_t>& 
 
 }  // namespace
 
-double Rounding::unit(const double* const points[4], double longerDiagonal) const {
+double Rounding::unit(const double* const points[4], double longerDiagonal, double gridHalfStep) const {
   double magnitude = 0;
   for (int i = 0; i < 4; ++i)
     for (int k = 0; k < 3; ++k) magnitude = std::max(magnitude, std::fabs(points[i][k]));
-  return std::max(relative * magnitude, 1e-8 * longerDiagonal);
+  return std::max(std::max(relative * magnitude, 1e-8 * longerDiagonal), gridHalfStep);
 }
 
 double Rounding::unit(const Quad& quad, const double* positions) const {
   const std::uint32_t ids[4] = {quad.a, quad.b, quad.c, quad.d};
   const double* points[4];
   for (int i = 0; i < 4; ++i) points[i] = positions + 3 * std::size_t{ids[i]};
-  return unit(points, quad.longerDiagonal());
+  double gridHalfStep = 0;
+  for (const std::uint32_t vertex : ids) gridHalfStep = std::max(gridHalfStep, halfStepOf(vertex));
+  return unit(points, quad.longerDiagonal(), gridHalfStep);
 }
 
 Rounding roundingOf(Precision precision) {
-  return {precision == Precision::float32 ? 1.0 / (1u << 24) : 1.0 / (1ull << 53)};
+  return {precision == Precision::float32 ? 1.0 / (1u << 24) : 1.0 / (1ull << 53), {}};
+}
+
+Rounding roundingOf(Precision precision, const WeldedMesh& welded) {
+  Rounding rounding = roundingOf(precision);
+  rounding.halfStep = welded.halfStep;
+  return rounding;
 }
 
 void keepNearest(std::vector<std::uint32_t>& members, std::uint32_t seed, const double* positions, std::size_t limit) {
@@ -110,7 +118,10 @@ void forEachCoplanarSet(const WeldedMesh& welded, const std::vector<double>& pos
 
     // Cheap test first: gap = |determinant| / |e x f|, and two chords of a ball of radius R span at most (2 R)^2.
     const double radius2 = ring.radius2();
-    const double longest = 2 * std::sqrt(radius2), unit = std::max(rounding.relative * ring.magnitude(), 1e-8 * longest);
+    const double longest = 2 * std::sqrt(radius2);
+    double unit = std::max(rounding.relative * ring.magnitude(), 1e-8 * longest);
+    if (!rounding.halfStep.empty())
+      for (std::uint32_t w : members) unit = std::max(unit, rounding.halfStep[w]);
     const double reach = std::min(limit.units * unit, std::max(kExactUnits * unit, limit.relative * longest));
     const double largest = 1.0001 * reach * 4 * radius2;
     ring.forEach(largest, [&](int a, int b, int c, int d, double) {

@@ -64,7 +64,9 @@ class Searcher {
   Searcher(const Mesh& mesh, WeldedMesh& welded, const PaperParams& params, double diagonal,
            const Rounding& rounding)
       : mesh_(mesh), welded_(welded), rings_(faceRings(mesh, welded)), params_(params),
-        lambda_(params.lambda * diagonal), rounding_(rounding), used_(welded.vertexCount(), 0) {}
+        lambda_(params.lambda * diagonal), rounding_(rounding), used_(welded.vertexCount(), 0) {
+    for (std::size_t w = 0; w < welded.gridOf.size(); ++w) used_[w] = welded.gridOf[w] == kFixed;
+  }
 
   SearchResult run() {
     for (std::uint32_t v = 0; v < welded_.vertexCount(); ++v) seed(v);
@@ -103,7 +105,10 @@ class Searcher {
   // Steps (1) and (2) of section 3.2: among natural coplanar sets the one with the longest diagonals (D6).
   bool naturalCell(Quad& best) {
     bool found = false;
-    const double tolerance = 1e-7 * std::sqrt(4 * ring_.radius2()) + kExactUnits * rounding_.relative * ring_.magnitude();
+    double gridHalfStep = 0;
+    for (std::uint32_t w : members_) gridHalfStep = std::max(gridHalfStep, rounding_.halfStepOf(w));
+    const double tolerance = 1e-7 * std::sqrt(4 * ring_.radius2()) +
+                             kExactUnits * (rounding_.relative * ring_.magnitude() + gridHalfStep);
     ring_.forEach(4 * tolerance * ring_.radius2(), [&](int i, int j, int k, int l, double determinant) {
       // |e x f| of the diagonals is at most twice the largest triangle's normal, so this never rejects too much.
       const double largest = largestNormal2(i, j, k, l);

@@ -18,9 +18,9 @@ double displacement2(double from, double to, double length) {
 }  // namespace
 
 Embedder::Embedder(const Mesh& mesh, std::span<const std::uint8_t> bits, const Key& key)
-    : mesh_(mesh), bits_(bits), key_(key), pad_(key), rounding_(roundingOf(mesh.precision)),
-      pieces_(toPieces(bits, key)), codec_(key.params, pieceCount(key.params)), welded_(weld(mesh)), positions_(welded_.positions),
-      diagonal_(boundingDiagonal(mesh)), padded_(pad_, pieces_, codec_.pieceSlot().digitCount()) {}
+    : mesh_(mesh), bits_(bits), key_(key), pad_(key), pieces_(toPieces(bits, key)),
+      codec_(key.params, pieceCount(key.params)), welded_(weld(mesh)), positions_(welded_.positions),
+      rounding_(roundingOf(mesh.precision, welded_)), diagonal_(boundingDiagonal(mesh)), padded_(pad_, pieces_, codec_.pieceSlot().digitCount()) {}
 
 Status Embedder::search() {
   if (!(diagonal_ > 0)) return Error{ErrorCode::badMesh, "the model has no extent: all its vertices coincide"};
@@ -103,17 +103,35 @@ void Embedder::planDecoy(PlannedCell& cell, std::uint64_t number) const {
   }
 }
 
+const CoordinateGrid* Embedder::gridOf(std::uint32_t vertex) const {
+  const std::uint8_t grid = welded_.gridOf.empty() ? 0 : welded_.gridOf[vertex];
+  return grid == 0 || grid == kFixed ? nullptr : &mesh_.grids[grid - 1u];
+}
+
+bool Embedder::isFixed(std::uint32_t vertex) const {
+  return !welded_.gridOf.empty() && welded_.gridOf[vertex] == kFixed;
+}
+
 void Embedder::round(std::uint32_t vertex) {
-  if (mesh_.precision != Precision::float32) return;
+  const CoordinateGrid* grid = gridOf(vertex);
+  if (grid == nullptr && mesh_.precision != Precision::float32) return;
   for (int k = 0; k < 3; ++k) {
     double& x = positions_[3 * std::size_t{vertex} + k];
-    x = nearestFloat32(x);
+    x = grid != nullptr ? nearestOnGrid(*grid, x) : nearestFloat32(x);
   }
+}
+
+// The coordinate that can be stored `steps` places above x (below for negative numbers).
+double Embedder::neighbour(std::uint32_t vertex, double x, int steps) const {
+  if (const CoordinateGrid* grid = gridOf(vertex)) return nearestOnGrid(*grid, x + steps * grid->step());
+  const float direction = steps < 0 ? -3e38f : 3e38f;
+  for (int step = 0; step < std::abs(steps); ++step) x = std::nextafter(static_cast<float>(x), direction);
+  return x;
 }
 
 // How far the cell at these four points is from reading well: 0 = centre of both digit cells and flat, from 1 upwards
 // it is misread or taken for not coplanar.
-double Embedder::misfit(const PlannedCell& cell, const double* const points[4]) const {
+double Embedder::misfit(const PlannedCell& cell, const double* const points[4], double gridHalfStep) const {
   Quad quad;
   if (!makeQuad(points, kMinTriangleReading, quad)) return 1e9;
   // makeQuad names the near ends afresh; the diagonals are the same unless the points left convex position.
@@ -123,14 +141,18 @@ double Embedder::misfit(const PlannedCell& cell, const double* const points[4]) 
   const double digitAC = (acFirst == same ? codec_.indexSlot() : codec_.pieceSlot()).cellWidth();
   const double digitBD = (acFirst == same ? codec_.pieceSlot() : codec_.indexSlot()).cellWidth();
   const double off = std::max(std::fabs(quad.ratioAC - wantAC) / digitAC, std::fabs(quad.ratioBD - wantBD) / digitBD);
-  return std::max(2 * off, quad.gap / (4 * rounding_.unit(points, quad.longerDiagonal())));
+  return std::max(2 * off, quad.gap / (4 * rounding_.unit(points, quad.longerDiagonal(), gridHalfStep)));
 }
 
 double Embedder::misfit(const PlannedCell& cell) const {
   const std::uint32_t ids[4] = {cell.quad.a, cell.quad.b, cell.quad.c, cell.quad.d};
   const double* points[4];
-  for (int i = 0; i < 4; ++i) points[i] = &positions_[3 * std::size_t{ids[i]}];
-  return misfit(cell, points);
+  double gridHalfStep = 0;
+  for (int i = 0; i < 4; ++i) {
+    points[i] = &positions_[3 * std::size_t{ids[i]}];
+    gridHalfStep = std::max(gridHalfStep, rounding_.halfStepOf(ids[i]));
+  }
+  return misfit(cell, points, gridHalfStep);
 }
 
 // The same after each of the affine maps that the verification also looks at, rounded to the file's precision.
@@ -141,7 +163,7 @@ double Embedder::misfitAfterMaps(const PlannedCell& cell) const {
     double mapped[4][3];
     const double* points[4] = {mapped[0], mapped[1], mapped[2], mapped[3]};
     for (int i = 0; i < 4; ++i) applyRounded(map, &positions_[3 * std::size_t{ids[i]}], mapped[i]);
-    worst = std::max(worst, misfit(cell, points));
+    worst = std::max(worst, misfit(cell, points, 0));
     if (worst > 1e8) break;
   }
   return worst;
@@ -159,8 +181,10 @@ void Embedder::writeCell(PlannedCell& cell) {
 void Embedder::settleCell(const PlannedCell& cell) {
   const std::uint32_t ids[4] = {cell.quad.a, cell.quad.b, cell.quad.c, cell.quad.d};
   for (std::uint32_t v : ids) round(v);
-  if (mesh_.precision != Precision::float32) return;
-  const bool throughMaps = scarce_ && coarseness(cell.quad) > kFineCoarseness;
+  const bool onGrid = gridOf(ids[0]) != nullptr;
+  if (!onGrid && mesh_.precision != Precision::float32) return;
+  // What an affine map rounds is far below a grid's step.
+  const bool throughMaps = !onGrid && scarce_ && coarseness(cell.quad) > kFineCoarseness;
   const double good = throughMaps ? 0.5 : 0.15;
   const auto score = [&] { return throughMaps ? misfitAfterMaps(cell) : misfit(cell); };
   const auto descend = [&](double best) {
@@ -169,8 +193,8 @@ void Embedder::settleCell(const PlannedCell& cell) {
       for (int move = 0; move < 48 && best > good; ++move) {
         double& x = positions_[3 * std::size_t{ids[move / 12]} + move / 4 % 3];
         const double kept = x;
-        const float direction = move % 2 == 0 ? -3e38f : 3e38f;
-        for (int step = 0; step <= move / 2 % 2; ++step) x = std::nextafter(static_cast<float>(x), direction);
+        const int steps = 1 + move / 2 % 2;
+        x = neighbour(ids[move / 12], x, move % 2 == 0 ? -steps : steps);
         const double now = score();
         if (now < best)
           best = now;
@@ -188,9 +212,8 @@ void Embedder::settleCell(const PlannedCell& cell) {
     for (int i = 0; i < 12; ++i) {
       double& x = positions_[3 * std::size_t{ids[i / 3]} + i % 3];
       kept[i] = x;
-      const auto steps = static_cast<int>(pad_.decoy((std::uint64_t{ids[0]} << 32) + 64 * jump + i) % 9) - 4;
-      for (int step = 0; step < std::abs(steps); ++step)
-        x = std::nextafter(static_cast<float>(x), steps < 0 ? -3e38f : 3e38f);
+      x = neighbour(ids[i / 3], x,
+                    static_cast<int>(pad_.decoy((std::uint64_t{ids[0]} << 32) + 64 * jump + i) % 9) - 4);
     }
     const double now = descend(score());
     if (now < best) {
@@ -211,7 +234,26 @@ Result<MarkedMesh> Embedder::run(const MeshProgress& progress) {
   for (PlannedCell& cell : cells_) writeCell(cell);
   separate();
   if (Status s = verify(progress); !s) return s.error();
+  if (Status s = refuseUnreadableGrid(); !s) return s.error();
   return result();
+}
+
+// A float file whose mark is weak gets a warning, because its owner may prefer a weak mark. On a coarse grid nearly every
+// set of four points is flat and the mark drowns: that is no mark at all, so it is not written.
+Status Embedder::refuseUnreadableGrid() const {
+  if (report_.guarantees.all() || std::all_of(welded_.gridOf.begin(), welded_.gridOf.end(), [](std::uint8_t grid) {
+        return grid == 0 || grid == kFixed;
+      }))
+    return okStatus();
+  double step = 0;
+  for (double half : welded_.halfStep) step = std::max(step, 2 * half);
+  return Error{ErrorCode::capacity,
+               "the positions are integers, about " + std::to_string(static_cast<std::uint64_t>(diagonal_ / step)) +
+                   " steps along the model's diagonal, too coarse for this mark: of the " +
+                   std::to_string(pieces_.size()) + " pieces for " + std::to_string(bits_.size()) + " bits, in " +
+                   std::to_string(report_.cells) + " cells, " + std::to_string(unreadPieces_) +
+                   " do not read back from the output or from an affine copy; store the positions as floats, or in " +
+                   "more bits, before marking"};
 }
 
 MarkedMesh Embedder::result() {

@@ -78,7 +78,10 @@ Status Embedder::assign() {
                  "the payload of " + std::to_string(bits_.size()) + " bits needs " + std::to_string(pieces) +
                      " cells, the model offers " + std::to_string(order.size()) + " usable ones (" +
                      std::to_string(capacity) + " bits) of " + std::to_string(cells_.size()) + " found in " +
-                     std::to_string(welded_.vertexCount()) + " vertices"};
+                     std::to_string(welded_.vertexCount()) + " vertices" +
+                     (report_.unusableCells == 0 ? std::string()
+                                                 : "; " + std::to_string(report_.unusableCells) +
+                                                       " are too small for the precision of the file's coordinates")};
   }
 
   scarce_ = order.size() < kScarceRepeats * pieces;

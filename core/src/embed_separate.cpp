@@ -70,7 +70,7 @@ void Embedder::breakSet(const Quad& set, std::uint64_t salt, std::vector<std::ui
                         std::vector<std::uint32_t>& changed) {
   const std::array<std::uint32_t, 4> vertices = {set.a, set.b, set.c, set.d};
   for (std::uint32_t v : vertices) {
-    if (cellOf_[v] != kNoVertex) continue;
+    if (cellOf_[v] != kNoVertex || isFixed(v)) continue;
     const Frame f = frameOf(set, positions_.data());
     const double height =
         std::min(kTiltUnits * rounding_.unit(set, positions_.data()), 0.1 * key_.params.lambda * diagonal_) *
@@ -80,10 +80,12 @@ void Embedder::breakSet(const Quad& set, std::uint64_t salt, std::vector<std::ui
     changed.push_back(v);
     return;
   }
-  // All four belong to cells: tilt one that has not moved in this round.
+  // All four belong to cells or cannot move: tilt a cell, unless one has moved in this round.
   for (std::uint32_t v : vertices)
-    if (movedCell[cellOf_[v]] != 0) return;
-  const std::uint32_t cell = cellOf_[vertices[salt % 4]];
+    if (cellOf_[v] != kNoVertex && movedCell[cellOf_[v]] != 0) return;
+  std::uint32_t cell = kNoVertex;
+  for (std::size_t i = 0; i < 4 && cell == kNoVertex; ++i) cell = cellOf_[vertices[(salt + i) % 4]];
+  if (cell == kNoVertex) return;
   movedCell[cell] = 1;
   tilt(cells_[cell], salt);
   const Quad& q = cells_[cell].quad;

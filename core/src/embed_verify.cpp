@@ -89,7 +89,7 @@ std::size_t Embedder::check(bool mayRepair, std::uint64_t& salt) {
 std::size_t Embedder::checkMapped(const AffineMap& map, bool mayRepair, std::uint64_t& salt) {
   std::vector<float> kept32;
   std::vector<double> kept64;
-  const bool narrow = mesh_.precision == Precision::float32;
+  const bool narrow = mesh_.precision == Precision::float32 && mesh_.gridOf.empty();
   if (narrow)
     kept32.assign(positions_.begin(), positions_.end());
   else
@@ -99,6 +99,7 @@ std::size_t Embedder::checkMapped(const AffineMap& map, bool mayRepair, std::uin
     applyRounded(map, point, &positions_[v]);
   }
   const bool separated = std::exchange(separated_, false);  // what is flat in the copy is to be found out
+  const std::span<const double> halfStep = std::exchange(rounding_.halfStep, {});  // a map leaves nothing on its grid
   Extraction first = read();
   const std::vector<std::uint32_t> bad = badPieces(first);
   if (mayRepair && !bad.empty()) first = read(true);
@@ -107,6 +108,7 @@ std::size_t Embedder::checkMapped(const AffineMap& map, bool mayRepair, std::uin
   else
     positions_.swap(kept64);
   separated_ = separated;
+  rounding_.halfStep = halfStep;
   if (mayRepair && !bad.empty()) repair(bad, first, salt);
   return bad.size();
 }
@@ -153,6 +155,13 @@ void Embedder::renumber() {
     }
     positions_.swap(positions);
   }
+  if (!welded_.halfStep.empty()) {
+    std::vector<double> halfStep;
+    halfStep.reserve(count);
+    for (std::uint32_t old : oldOf) halfStep.push_back(welded_.halfStep[old]);
+    welded_.halfStep.swap(halfStep);
+    rounding_.halfStep = welded_.halfStep;
+  }
   std::vector<std::uint32_t> offsets, neighbours;
   offsets.reserve(std::size_t{count} + 1);
   neighbours.reserve(welded_.neighbours.size());
@@ -193,13 +202,15 @@ Status Embedder::verify(const MeshProgress& progress) {
     if (progress && !progress("verify", 0.6 + 0.02 * attempt))
       return Error{ErrorCode::aborted, "cancelled while verifying"};
     const bool mayRepair = attempt + 1 < kAttempts;
-    std::size_t bad = check(mayRepair, salt), badAfterMap = 0;
+    const std::size_t badUnattacked = check(mayRepair, salt);
+    std::size_t bad = badUnattacked, badAfterMap = 0;
     report_.guarantees.unattacked = bad == 0;
     for (const AffineMap& map : maps) {
       badAfterMap = checkMapped(map, mayRepair, salt);  // the last map is the combined one
       bad += badAfterMap;
     }
     report_.guarantees.affine = badAfterMap == 0;
+    unreadPieces_ = std::max(badUnattacked, badAfterMap);
     if (bad == 0) break;
     // Far from the origin a file may be too coarse for its digits; then rewriting only rolls the dice again.
     fruitless = bad < fewest ? 0 : fruitless + 1;

@@ -60,14 +60,18 @@ class Embedder {
  private:
   // embed.cpp
   Status search();
+  [[nodiscard]] const CoordinateGrid* gridOf(std::uint32_t vertex) const;
+  [[nodiscard]] bool isFixed(std::uint32_t vertex) const;
+  [[nodiscard]] double neighbour(std::uint32_t vertex, double x, int steps) const;
   void round(std::uint32_t vertex);
   void writeCell(PlannedCell& cell);
   void settleCell(const PlannedCell& cell);
   [[nodiscard]] double misfit(const PlannedCell& cell) const;
-  [[nodiscard]] double misfit(const PlannedCell& cell, const double* const points[4]) const;
+  [[nodiscard]] double misfit(const PlannedCell& cell, const double* const points[4], double gridHalfStep) const;
   [[nodiscard]] double misfitAfterMaps(const PlannedCell& cell) const;
   [[nodiscard]] bool plan(PlannedCell& cell, std::uint32_t piece);
   void planDecoy(PlannedCell& cell, std::uint64_t number) const;
+  [[nodiscard]] Status refuseUnreadableGrid() const;
   [[nodiscard]] MarkedMesh result();
 
   // embed_assign.cpp
@@ -100,11 +104,11 @@ class Embedder {
   const std::span<const std::uint8_t> bits_;
   const Key& key_;
   const Pad pad_;
-  const Rounding rounding_;
   const std::vector<std::uint32_t> pieces_;
   const PairCodec codec_;
   WeldedMesh welded_;
   std::vector<double>& positions_;        ///< of welded_: the original ones until search(), representable once written
+  Rounding rounding_;                     ///< of the file, or of the copy that is being checked
   const double diagonal_;
   PadCache padded_;
   std::vector<PlannedCell> cells_;
@@ -112,6 +116,7 @@ class Embedder {
   std::vector<std::uint32_t> copies_;     ///< per piece
   bool separated_ = false;                ///< separate() left no flat set but the cells
   bool scarce_ = false;                   ///< fewer than kScarceRepeats copies per piece
+  std::size_t unreadPieces_ = 0;          ///< in the worse of the last two checks, of the output and of an affine copy
   MarkedMesh report_;
 };
 

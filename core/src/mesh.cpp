@@ -60,6 +60,16 @@ Status validate(const Mesh& mesh) {
     return badMesh("groups: " + std::to_string(mesh.groups.size()) + " entries for " + std::to_string(vertexCount) +
                    " vertices");
   }
+  if (mesh.grids.size() > 250) return badMesh("grids: more than 250");
+  if (!mesh.gridOf.empty() && mesh.gridOf.size() != vertexCount) {
+    return badMesh("grids: " + std::to_string(mesh.gridOf.size()) + " entries for " + std::to_string(vertexCount) +
+                   " vertices");
+  }
+  for (std::size_t vertex = 0; vertex < mesh.gridOf.size(); ++vertex) {
+    if (mesh.gridOf[vertex] <= mesh.grids.size()) continue;
+    return badMesh("vertex " + std::to_string(vertex) + ": grid " + std::to_string(mesh.gridOf[vertex]) + " of " +
+                   std::to_string(mesh.grids.size()));
+  }
   return okStatus();
 }
 
@@ -93,11 +103,22 @@ double boundingDiagonal(const Mesh& mesh) {
   return unit * std::sqrt(sum);
 }
 
+double nearestOnGrid(const CoordinateGrid& grid, double x) {
+  const double code = std::floor(x * grid.divisor + 0.5);
+  return (code < grid.low ? grid.low : code > grid.high ? grid.high : code) / grid.divisor;
+}
+
 void roundToPrecision(Mesh& mesh) {
-  if (mesh.precision != Precision::float32) return;
-  for (double& value : mesh.positions) {
-    const double rounded = nearestFloat32(value);
-    value = rounded;
+  const bool narrow = mesh.precision == Precision::float32;
+  if (mesh.gridOf.empty() && !narrow) return;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    double& value = mesh.positions[i];
+    if (const CoordinateGrid* grid = mesh.grid(i / 3)) {
+      value = nearestOnGrid(*grid, value);
+    } else if (narrow) {
+      const double rounded = nearestFloat32(value);
+      value = rounded;
+    }
   }
 }
 

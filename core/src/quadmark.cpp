@@ -194,7 +194,7 @@ Result<ExtractResponse> extract(std::span<const std::uint8_t> file, const Resour
   if (request.reference) options.reference = request.reference->bits;
   options.keepReadings = !(*model)->nodes().empty();
   options.progress = [&](int passes) { return tell(request.progress, "search", 0.3 + 0.1 * std::min(passes, 6)); };
-  const Extraction e = extractMesh(welded, welded.positions, roundingOf(precision), request.key, options);
+  const Extraction e = extractMesh(welded, welded.positions, roundingOf(precision, welded), request.key, options);
   if (e.cancelled || !tell(request.progress, "report", 0.95)) return cancelled();
 
   ExtractResponse response;
@@ -229,7 +229,7 @@ Result<std::string> inspect(std::span<const std::uint8_t> file, const Resources&
   WeldedMesh welded = weld(mesh);
   const double diagonal = boundingDiagonal(mesh);
   SearchResult found;
-  if (diagonal > 0) found = searchCells(mesh, welded, PaperParams{}, diagonal, roundingOf(mesh.precision));
+  if (diagonal > 0) found = searchCells(mesh, welded, PaperParams{}, diagonal, roundingOf(mesh.precision, welded));
   return formatReport(InspectReport{(*model)->info(), mesh, welded.vertexCount(), componentCount(welded), diagonal,
                                     static_cast<std::uint32_t>(found.cells.size()), found.naturalCells,
                                     cellsPerNode(**model, welded, found.cells, [](const Quad& q) { return q.a; })});

@@ -28,6 +28,17 @@ void writeNodes(JsonWriter& json, const std::vector<NodeCells>& nodes) {
   json.endArray();
 }
 
+// "float32", "float64", or of integer grids "int8", "uint16 normalized", ...; "mixed" where vertices differ.
+std::string precisionName(const Mesh& mesh) {
+  const auto kindOf = [&](std::uint32_t vertex) { return mesh.gridOf.empty() ? 0 : mesh.gridOf[vertex]; };
+  for (std::uint32_t vertex : mesh.faceVertices)
+    if (kindOf(vertex) != kindOf(mesh.faceVertices[0])) return "mixed";
+  const CoordinateGrid* grid = mesh.faceVertices.empty() ? nullptr : mesh.grid(mesh.faceVertices[0]);
+  if (grid == nullptr) return mesh.precision == Precision::float32 ? "float32" : "float64";
+  return std::string(grid->low < 0 ? "int" : "uint") + (grid->high > 255 ? "16" : "8") +
+         (grid->divisor > 1 ? " normalized" : "");
+}
+
 }  // namespace
 
 std::string formatId(std::uint64_t id) {
@@ -110,7 +121,7 @@ std::string formatReport(const InspectReport& r) {
   json.beginObject();
   json.member("format", fileFormatName(r.info.format));
   json.member("variant", r.info.variant);
-  json.member("precision", r.mesh.precision == Precision::float32 ? "float32" : "float64");
+  json.member("precision", precisionName(r.mesh));
   json.member("meshes", r.info.meshes);
   json.member("primitives", r.info.primitives);
   json.member("nodes", r.info.nodes);

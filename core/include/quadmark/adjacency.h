@@ -13,6 +13,9 @@ namespace quadmark {
 /// No welded vertex: the mark of a vertex that no face refers to.
 inline constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
+/// Entry of WeldedMesh::gridOf: no other position than the present one can be stored for all twins alike.
+inline constexpr std::uint8_t kFixed = 255;
+
 /// Vertices with bit-equal positions (-0 counts as +0) inside one seam group are one welded vertex, numbered in the
 /// order of their first appearance in the vertex array. Vertices no face refers to have none.
 struct WeldedMesh {
@@ -20,6 +23,8 @@ struct WeldedMesh {
   std::vector<std::uint32_t> weldedOf;       ///< welded vertex per mesh vertex, or kNoVertex
   std::vector<std::uint32_t> edgeOffsets;    ///< welded vertices + 1: where each one's neighbours begin
   std::vector<std::uint32_t> neighbours;     ///< unique, ascending per vertex, never the vertex itself
+  std::vector<std::uint8_t> gridOf;          ///< as Mesh::gridOf, or kFixed; empty if no vertex has a grid
+  std::vector<double> halfStep;              ///< of the coarsest grid of the twins, 0 without one; empty with gridOf
 
   [[nodiscard]] std::uint32_t vertexCount() const {
     return edgeOffsets.empty() ? 0 : static_cast<std::uint32_t>(edgeOffsets.size() - 1);

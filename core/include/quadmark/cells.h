@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "quadmark/adjacency.h"
@@ -20,12 +21,21 @@ inline constexpr std::size_t kMaxMembersWriting = 16, kMaxMembersReading = 24;
 /// How far rounding alone can take four points of a file off their common plane.
 struct Rounding {
   double relative = 0;  ///< half a unit in the last place, as a fraction of a coordinate: 2^-24 or 2^-53
+  /// Half a step of the grid of each welded vertex, which must outlive this; empty without grids.
+  std::span<const double> halfStep;
+
+  [[nodiscard]] double halfStepOf(std::uint32_t vertex) const { return halfStep.empty() ? 0 : halfStep[vertex]; }
   /// The unit in which gaps are measured: one coordinate's largest rounding error near these points, but never below
   /// 1e-8 of the longer diagonal (D4).
   [[nodiscard]] double unit(const Quad& quad, const double* positions) const;
-  [[nodiscard]] double unit(const double* const points[4], double longerDiagonal) const;
+  /// @param gridHalfStep  largest half step of their grids, 0 without.
+  [[nodiscard]] double unit(const double* const points[4], double longerDiagonal, double gridHalfStep = 0) const;
 };
 [[nodiscard]] Rounding roundingOf(Precision precision);
+
+/// The rounding of a file's own vertices, grids included.
+/// @param welded  must outlive the result.
+[[nodiscard]] Rounding roundingOf(Precision precision, const WeldedMesh& welded);
 
 /// A gap of up to this many units counts as exactly coplanar.
 inline constexpr double kExactUnits = 4;

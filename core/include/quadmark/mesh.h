@@ -14,6 +14,15 @@ namespace quadmark {
 /// How the file stores one coordinate. Decides the rounding that a mark must survive.
 enum class Precision : std::uint8_t { float32, float64 };
 
+/// Coordinates that a file stores as integers (KHR_mesh_quantization): a coordinate is code / divisor, code an integer.
+struct CoordinateGrid {
+  double divisor = 1;        ///< 1, or 127, 255, 32767 or 65535 where the file normalizes
+  double low = 0, high = 0;  ///< least and largest code; equal: the coordinate is not stored and cannot change
+
+  [[nodiscard]] double step() const { return 1 / divisor; }
+  [[nodiscard]] bool operator==(const CoordinateGrid& other) const = default;
+};
+
 /// A polygon soup with shared vertices, in the file's own units and order.
 ///
 /// Example, one quad and one triangle over five vertices:
@@ -30,8 +39,14 @@ struct Mesh {
   /// Seam group per vertex: vertices with bit-equal positions are twins only inside one group (in glTF: one mesh).
   /// Empty means that all vertices are of one group.
   std::vector<std::uint32_t> groups;
-  Precision precision = Precision::float32;
+  Precision precision = Precision::float32;  ///< of the vertices without a grid
+  std::vector<CoordinateGrid> grids;         ///< at most 250
+  /// Per vertex: 0 for `precision`, i for grids[i - 1]. Empty means that no vertex has a grid.
+  std::vector<std::uint8_t> gridOf;
 
+  [[nodiscard]] const CoordinateGrid* grid(std::size_t vertex) const {
+    return gridOf.empty() || gridOf[vertex] == 0 ? nullptr : &grids[gridOf[vertex] - 1u];
+  }
   [[nodiscard]] std::size_t vertexCount() const { return positions.size() / 3; }
   [[nodiscard]] std::size_t faceCount() const {
     return faceOffsets.empty() ? faceVertices.size() / 3 : faceOffsets.size() - 1;
@@ -60,7 +75,10 @@ using MeshProgress = std::function<bool(const char* stage, double done)>;
   return rounded;
 }
 
-/// Rounds every coordinate to the mesh's own precision (nearest float32; nothing for float64).
+/// The coordinate on the grid that is nearest to x (ties away from the grid's lower end), clamped to the grid's range.
+[[nodiscard]] double nearestOnGrid(const CoordinateGrid& grid, double x);
+
+/// Rounds every coordinate to what its vertex can store: nearest on its grid, nearest float32, or itself for float64.
 void roundToPrecision(Mesh& mesh);
 
 }  // namespace quadmark
