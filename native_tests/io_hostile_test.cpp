@@ -7,6 +7,7 @@
 
 #include "io_allocations.h"
 #include "io_fixtures.h"
+#include "io_gltf_matrix.h"
 
 namespace quadmark::test {
 namespace {
@@ -62,6 +63,20 @@ std::vector<FileBytes> seeds() {
   strips.faces = {{0, 3, 1, 4, 4, 5, -1, 6, 3, 7, 4}};
   files.push_back(makePly(strips));
   files.push_back(gridGltf().glb());
+  Mesh square;
+  square.positions = {0, 0, 0, 1, 0, 0, 1, 1, 0.5, 0, 1, 0};
+  square.faceVertices = {0, 1, 2, 0, 2, 3};
+  for (const char* component : {"float", "char", "ushort"}) {
+    for (const SparseUse sparse : {SparseUse::none, SparseUse::overBase, SparseUse::alone}) {
+      MatrixSpec spec;
+      spec.component = component;
+      spec.normalized = component[0] == 'c';
+      spec.sparse = sparse;
+      spec.mode = 4 + static_cast<int>(files.size() % 3);
+      const Mesh codes = asCodes(square, spec);
+      files.push_back(MatrixWriter(spec, codes, codes).write().file);
+    }
+  }
   files.push_back(bytesOf(gridGltf("\"uri\":\"a.bin\",").json));
   files.push_back(bytesOf(gridGltf("\"uri\":\"data:;base64," + base64(gridGltf().bin) + "\",").json));
   return files;

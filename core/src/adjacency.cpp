@@ -164,8 +164,8 @@ void collectEdges(const Mesh& mesh, WeldedMesh& out) {
 WeldedMesh weld(const Mesh& mesh) {
   WeldedMesh out;
   weldPositions(mesh, out);
-  weldGrids(mesh, out);
   collectEdges(mesh, out);
+  weldGrids(mesh, out);
   return out;
 }
 

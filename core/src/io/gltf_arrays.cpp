@@ -11,6 +11,7 @@ struct Layout {
   std::uint32_t buffer = 0;
   std::uint64_t start = 0, stride = 0, count = 0;
   std::uint32_t width = 0;  // bytes per element
+  PositionType type;
   std::uint32_t accessor = kNone;
   std::uint32_t array = kNone;  // of joined layouts: their own index
 
@@ -27,8 +28,33 @@ Layout layoutOf(const GltfDocument& document, const std::vector<std::uint32_t>& 
   layout.width = accessor.elementBytes();
   layout.stride = view.byteStride == 0 ? layout.width : view.byteStride;
   layout.count = accessor.count;
+  layout.type.component = accessor.componentType;
+  layout.type.normalized = accessor.normalized && accessor.componentType != kGltfFloat;
   layout.accessor = index;
   return layout;
+}
+
+/// One of the packed arrays of a sparse accessor.
+Layout packedLayout(const GltfDocument& document, const std::vector<std::uint32_t>& sameBuffer, std::uint32_t index,
+                    std::uint32_t viewIndex, std::uint64_t offset, std::uint32_t width) {
+  const GltfAccessor& accessor = document.accessors[index];
+  const GltfView& view = document.views[viewIndex];
+  Layout layout;
+  layout.buffer = sameBuffer[view.buffer];
+  layout.start = view.byteOffset + offset;
+  layout.width = width;
+  layout.stride = width;
+  layout.count = accessor.sparse->count;
+  layout.type.component = accessor.componentType;
+  layout.type.normalized = accessor.normalized && accessor.componentType != kGltfFloat;
+  layout.accessor = index;
+  return layout;
+}
+
+Layout valuesLayout(const GltfDocument& document, const std::vector<std::uint32_t>& sameBuffer, std::uint32_t index) {
+  const GltfSparse& sparse = *document.accessors[index].sparse;
+  return packedLayout(document, sameBuffer, index, sparse.valuesView, sparse.valuesOffset,
+                      document.accessors[index].elementBytes());
 }
 
 /// Whether any element of one touches any element of the other. Elements of unrelated strides whose ranges overlap
@@ -64,6 +90,8 @@ std::vector<std::uint32_t> joinWindows(std::vector<Layout>& layouts, std::vector
     if (a.buffer != b.buffer) return a.buffer < b.buffer;
     if (a.stride != b.stride) return a.stride < b.stride;
     if (a.residue() != b.residue()) return a.residue() < b.residue();
+    if (a.type.component != b.type.component) return a.type.component < b.type.component;
+    if (a.type.normalized != b.type.normalized) return b.type.normalized;
     if (a.start != b.start) return a.start < b.start;
     return left < right;
   });
@@ -72,7 +100,7 @@ std::vector<std::uint32_t> joinWindows(std::vector<Layout>& layouts, std::vector
     const Layout& layout = layouts[index];
     Layout* last = arrays.empty() ? nullptr : &arrays.back();
     const bool joins = last != nullptr && last->buffer == layout.buffer && last->stride == layout.stride &&
-                       last->residue() == layout.residue() && layout.start < last->end();
+                       last->residue() == layout.residue() && last->type == layout.type && layout.start < last->end();
     if (joins) {
       const std::uint64_t count = (layout.start - last->start) / last->stride + layout.count;
       last->count = std::max(last->count, count);
@@ -139,6 +167,19 @@ std::string findConflict(const GltfDocument& document, const std::vector<std::ui
     if (layout.width == 0 || layout.stride == 0) continue;
     if (const Layout* array = index.findSharing(layout)) return message(array->accessor, other);
   }
+  for (std::uint32_t i = 0; i < document.accessors.size(); ++i) {
+    const GltfAccessor& accessor = document.accessors[i];
+    if (!accessor.sparse || accessor.sparse->count == 0) continue;
+    const GltfSparse& sparse = *accessor.sparse;
+    const bool isPosition = result.windowOf[i] != kNone;
+    const auto sharing = [&](std::uint32_t view, std::uint64_t offset, std::uint32_t width) -> const Layout* {
+      if (view == kNone || document.views[view].buffer == kNone || width == 0) return nullptr;
+      return index.findSharing(packedLayout(document, sameBuffer, i, view, offset, width));
+    };
+    const Layout* array = sharing(sparse.indicesView, sparse.indicesOffset, componentBytes(sparse.indicesType));
+    if (array == nullptr && !isPosition) array = sharing(sparse.valuesView, sparse.valuesOffset, accessor.elementBytes());
+    if (array != nullptr) return message(array->accessor, "the sparse part of accessor " + std::to_string(i));
+  }
   for (const std::uint32_t view : document.imageViews) {
     const GltfView& image = document.views[view];
     if (image.buffer == kNone || image.byteLength == 0) continue;
@@ -161,20 +202,23 @@ Result<PositionArrays> collectPositionArrays(const GltfDocument& document,
                                              const std::vector<std::uint32_t>& sameBuffer) {
   const std::vector<std::uint32_t> accessors = positionAccessors(document);
   std::vector<Layout> layouts, joined;
-  for (const std::uint32_t accessor : accessors) layouts.push_back(layoutOf(document, sameBuffer, accessor));
+  for (const std::uint32_t accessor : accessors) {
+    if (document.accessors[accessor].view != kNone) layouts.push_back(layoutOf(document, sameBuffer, accessor));
+    if (document.accessors[accessor].sparse) layouts.push_back(valuesLayout(document, sameBuffer, accessor));
+  }
   const std::vector<std::uint32_t> arrayOf = joinWindows(layouts, joined);
 
+  PositionArrays result;
   const PlaceIndex index(joined);
-  for (std::size_t i = 0; i < index.arrays().size(); ++i) {
+  for (std::size_t i = 0; i < index.arrays().size() && result.conflict.empty(); ++i) {
     const Layout& array = index.arrays()[i];
     if (const Layout* other = index.findSharing(array, i)) {
-      return unsupportedFile("accessor " + std::to_string(std::min(array.accessor, other->accessor)) +
-                             " and accessor " + std::to_string(std::max(array.accessor, other->accessor)) +
-                             " hold positions that overlap with different layouts");
+      result.conflict = "accessor " + std::to_string(std::min(array.accessor, other->accessor)) + " and accessor " +
+                        std::to_string(std::max(array.accessor, other->accessor)) +
+                        " hold positions that overlap with different layouts";
     }
   }
 
-  PositionArrays result;
   result.windowOf.assign(document.accessors.size(), kNone);
   std::vector<std::uint32_t> number(joined.size(), kNone);  // joined -> result.arrays, in the order of first use
   for (const std::uint32_t array : arrayOf) {
@@ -182,34 +226,68 @@ Result<PositionArrays> collectPositionArrays(const GltfDocument& document,
     number[array] = static_cast<std::uint32_t>(result.arrays.size());
     const Layout& layout = joined[array];
     result.arrays.push_back(PositionArray{layout.buffer, layout.start, static_cast<std::uint32_t>(layout.stride),
-                                          layout.count, result.vertexCount});
+                                          layout.count, result.vertexCount, layout.type});
     result.vertexCount += layout.count;
   }
-  if (result.vertexCount > 0xfffffffeu) return tooLarge("glTF: more than 4294967294 vertices");
   const auto addWindow = [&](const Layout& layout, std::uint32_t joinedArray) {
     const PositionArray& array = result.arrays[number[joinedArray]];
-    result.windowOf[layout.accessor] = static_cast<std::uint32_t>(result.windows.size());
     const std::uint64_t skipped = (layout.start - array.start) / array.stride;
-    result.windows.push_back(
-        PositionWindow{layout.accessor, number[joinedArray], array.firstVertex + skipped, layout.count});
+    PositionWindow window;
+    window.accessor = layout.accessor;
+    window.array = number[joinedArray];
+    window.firstVertex = array.firstVertex + skipped;
+    window.count = layout.count;
+    result.windows.push_back(std::move(window));
+    return static_cast<std::uint32_t>(result.windows.size() - 1);
   };
-  for (std::size_t i = 0; i < layouts.size(); ++i) addWindow(layouts[i], arrayOf[i]);
+  std::size_t next = 0;  // in layouts
+  for (const std::uint32_t accessor : accessors) {
+    std::uint32_t window = kNone;
+    if (document.accessors[accessor].view != kNone) {
+      window = addWindow(layouts[next], arrayOf[next]);
+      ++next;
+    } else {
+      window = static_cast<std::uint32_t>(result.windows.size());
+      PositionWindow zeros;
+      zeros.accessor = accessor;
+      zeros.array = kNone;
+      zeros.firstVertex = result.vertexCount++;
+      zeros.count = document.accessors[accessor].count;
+      result.windows.push_back(std::move(zeros));
+    }
+    result.windowOf[accessor] = window;
+    if (!document.accessors[accessor].sparse) continue;
+    result.windows[window].values = static_cast<std::uint32_t>(result.windows.size());
+    addWindow(layouts[next], arrayOf[next]);
+    ++next;
+  }
+  if (result.vertexCount > 0xfffffffeu) return tooLarge("glTF: more than 4294967294 vertices");
 
   // Positions of points and lines, or accessors nobody uses, that lie in an array move with it: their bounds follow.
   for (std::uint32_t i = 0; i < document.accessors.size(); ++i) {
     const GltfAccessor& accessor = document.accessors[i];
     const bool couldBe = result.windowOf[i] == kNone && !accessor.usedOtherwise && !accessor.sparse &&
                          accessor.view != kNone && accessor.count > 0 && accessor.components == 3 &&
-                         accessor.componentType == kGltfFloat && document.views[accessor.view].buffer != kNone;
+                         document.views[accessor.view].buffer != kNone;
     if (!couldBe) continue;
     const Layout layout = layoutOf(document, sameBuffer, i);
     const Layout* inside = index.findSharing(layout);
     if (inside == nullptr || inside->stride != layout.stride || inside->residue() != layout.residue()) continue;
-    if (layout.start < inside->start || layout.end() > inside->end()) continue;
-    addWindow(layout, inside->array);
+    if (!(inside->type == layout.type) || layout.start < inside->start || layout.end() > inside->end()) continue;
+    result.windowOf[i] = addWindow(layout, inside->array);
   }
-  result.conflict = findConflict(document, sameBuffer, index, result);
+  if (result.conflict.empty()) result.conflict = findConflict(document, sameBuffer, index, result);
   return result;
+}
+
+std::uint32_t PositionArrays::vertexOf(const PositionWindow& window, std::uint32_t element) const {
+  if (window.values != kNone) {
+    const PositionWindow& values = windows[window.values];
+    const auto found = std::lower_bound(values.replaced.begin(), values.replaced.end(), element);
+    if (found != values.replaced.end() && *found == element)
+      return static_cast<std::uint32_t>(values.firstVertex + static_cast<std::uint64_t>(found - values.replaced.begin()));
+  }
+  return static_cast<std::uint32_t>(window.firstVertex + (window.isStored() ? element : 0));
 }
 
 }  // namespace quadmark::io

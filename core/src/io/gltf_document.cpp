@@ -94,14 +94,35 @@ FileSpan spanOf(JsonValue value, const char* jsonText, std::size_t jsonBegin) {
   return {begin, begin + value.text().size()};
 }
 
+/// The sparse member of an accessor; what is wrong goes to `fields`.
+GltfSparse readSparse(JsonValue json, const std::string& accessor, const GltfDocument& document, FieldReader& fields) {
+  GltfSparse sparse;
+  FieldReader own(json, accessor + " sparse"), indices(json.find("indices"), accessor + " sparse.indices"),
+      values(json.find("values"), accessor + " sparse.values");
+  sparse.count = own.required("count", kLargestSize);
+  sparse.indicesView = static_cast<std::uint32_t>(indices.required("bufferView", kLargestSize));
+  sparse.indicesOffset = indices.optional("byteOffset", 0, kLargestSize);
+  sparse.indicesType = static_cast<std::uint32_t>(indices.required("componentType", 0xffff));
+  sparse.valuesView = static_cast<std::uint32_t>(values.required("bufferView", kLargestSize));
+  sparse.valuesOffset = values.optional("byteOffset", 0, kLargestSize);
+  for (const FieldReader* part : {&own, &indices, &values}) fields.adopt(*part);
+  for (std::uint32_t* view : {&sparse.indicesView, &sparse.valuesView}) {
+    if (*view < document.views.size()) continue;
+    fields.fail("sparse refers to bufferView " + number(*view) + " of " + number(document.views.size()));
+    *view = kNone;
+  }
+  return sparse;
+}
+
 Status readAccessors(const GltfSections& sections, GltfDocument& document) {
   std::size_t index = 0;
   Status status = okStatus();
   sections.accessors.forEachElement([&](JsonValue json) {
     GltfAccessor& accessor = document.accessors[index];
-    FieldReader fields(json, "accessor " + number(index));
+    const std::string place = "accessor " + number(index);
+    FieldReader fields(json, place);
     ++index;
-    accessor.sparse = json.find("sparse").isObject();
+    accessor.normalized = json.find("normalized").text() == "true";
     accessor.min = spanOf(json.find("min"), sections.text.data(), sections.textBegin);
     accessor.max = spanOf(json.find("max"), sections.text.data(), sections.textBegin);
     accessor.componentType = static_cast<std::uint32_t>(fields.required("componentType", 0xffff));
@@ -120,8 +141,15 @@ Status readAccessors(const GltfSections& sections, GltfDocument& document) {
       }
       if (!fields.error()) accessor.view = static_cast<std::uint32_t>(view);
     }
+    if (const JsonValue sparse = json.find("sparse"); sparse.isObject()) {
+      accessor.sparse = readSparse(sparse, place, document, fields);
+    }
     if (fields.error() && accessor.needed && status) status = *fields.error();
-    if (accessor.needed && accessor.view != kNone) document.views[accessor.view].needed = true;
+    if (!accessor.needed) return;
+    for (const std::uint32_t view : {accessor.view, accessor.sparse ? accessor.sparse->indicesView : kNone,
+                                     accessor.sparse ? accessor.sparse->valuesView : kNone}) {
+      if (view != kNone) document.views[view].needed = true;
+    }
   });
   return status;
 }
@@ -263,20 +291,52 @@ Status checkElements(const GltfDocument& document, std::uint32_t index) {
                  " elements exceeds bufferView " + number(accessor.view) + " (" + number(view.byteLength) + " bytes)");
 }
 
+/// One of the two arrays of a sparse accessor: tightly packed elements in a view.
+Status checkPacked(const GltfDocument& document, const std::string& place, std::uint32_t viewIndex, std::uint64_t offset,
+                   std::uint64_t count, std::uint64_t elementBytes) {
+  const GltfView& view = document.views[viewIndex];
+  if (view.byteStride != 0 && view.byteStride != elementBytes) {
+    return badFile(place + ": bufferView " + number(viewIndex) + " has a byteStride");
+  }
+  if (offset <= view.byteLength && count <= (view.byteLength - offset) / elementBytes) return okStatus();
+  return badFile(place + ": byteOffset " + number(offset) + " with " + number(count) + " elements exceeds bufferView " +
+                 number(viewIndex) + " (" + number(view.byteLength) + " bytes)");
+}
+
+Status checkSparse(const GltfDocument& document, std::uint32_t index) {
+  const GltfAccessor& accessor = document.accessors[index];
+  const GltfSparse& sparse = *accessor.sparse;
+  const std::string place = "accessor " + number(index) + " sparse";
+  if (sparse.count == 0 || sparse.count > accessor.count) {
+    return badFile(place + ".count is " + number(sparse.count) + " for " + number(accessor.count) + " elements");
+  }
+  const std::uint32_t type = sparse.indicesType;
+  if (type != kGltfUint8 && type != kGltfUint16 && type != kGltfUint32) {
+    return badFile(place + ".indices: are not unsigned integers");
+  }
+  if (Status status = checkPacked(document, place + ".indices", sparse.indicesView, sparse.indicesOffset, sparse.count,
+                                  componentBytes(type));
+      !status) {
+    return status;
+  }
+  return checkPacked(document, place + ".values", sparse.valuesView, sparse.valuesOffset, sparse.count,
+                     accessor.elementBytes());
+}
+
 Status checkTriangles(const GltfDocument& document, const GltfPrimitive& primitive) {
   const std::string what = primitive.place() + " POSITION";
   const GltfAccessor& position = document.accessors[primitive.position];
   const std::string place = " (accessor " + number(primitive.position) + ")";
-  if (position.sparse) return unsupportedFile(what + place + ": sparse accessors are not supported by this version");
-  if (position.components == 3 && position.componentType < 5124) {
-    return unsupportedFile(what + place + ": componentType " + number(position.componentType) +
-                           " (KHR_mesh_quantization) is not supported by this version");
+  if (position.components != 3 || position.componentType == kGltfUint32) {
+    return badFile(what + place + ": is not a VEC3 of floats or of 8- or 16-bit integers");
   }
-  if (position.components != 3 || position.componentType != kGltfFloat) {
-    return badFile(what + place + ": is not a VEC3 of floats");
+  if (position.count == 0) return badFile("accessor " + number(primitive.position) + ": count is 0");
+  if (position.view != kNone) {
+    if (Status status = checkElements(document, primitive.position); !status) return status;
   }
-  if (position.view == kNone) return unsupportedFile(what + place + ": accessors without bufferView are not supported");
-  if (Status status = checkElements(document, primitive.position); !status) return status;
+  if (position.sparse) {
+    if (Status status = checkSparse(document, primitive.position); !status) return status;
+  }
 
   if (primitive.indices == kNone) return okStatus();
   const GltfAccessor& indices = document.accessors[primitive.indices];
@@ -296,8 +356,7 @@ Status checkTriangles(const GltfDocument& document, const GltfPrimitive& primiti
 }  // namespace
 
 std::uint32_t GltfAccessor::elementBytes() const {
-  const std::uint32_t componentBytes = componentType <= 5121 ? 1 : componentType <= 5123 ? 2 : 4;
-  return components * componentBytes;
+  return components * componentBytes(componentType);
 }
 
 void GltfDocument::warn(std::string text) {

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "bytes.h"
+#include "gltf_components.h"
 #include "json_text.h"
 #include "meshopt.h"
 
 namespace quadmark::io {
 
 inline constexpr std::uint32_t kNone = 0xffffffff;
-inline constexpr std::uint32_t kGltfFloat = 5126;  ///< componentType
 
 /// A range of the file's bytes.
 struct FileSpan {
@@ -46,11 +46,20 @@ struct GltfView {
   bool needed = false;           ///< by triangles: then it is flawless
 };
 
+/// Elements that replace some of an accessor's: both arrays are tightly packed.
+struct GltfSparse {
+  std::uint64_t count = 0;
+  std::uint32_t indicesView = kNone, valuesView = kNone;
+  std::uint64_t indicesOffset = 0, valuesOffset = 0;  ///< in their views
+  std::uint32_t indicesType = 0;
+};
+
 struct GltfAccessor {
-  std::uint32_t view = kNone;
+  std::uint32_t view = kNone;  ///< kNone: zeros, where nothing is sparse
   std::uint64_t byteOffset = 0, count = 0;
   std::uint32_t componentType = 0, components = 0;
-  bool sparse = false;
+  bool normalized = false;
+  std::optional<GltfSparse> sparse;
   bool needed = false;         ///< by triangles (positions or indices): then it is flawless
   bool usedOtherwise = false;  ///< by anything but POSITION of a primitive
   FileSpan min, max;           ///< the arrays' text

@@ -35,6 +35,11 @@ class FieldReader {
     if (!error_) error_ = badFile(place_ + " " + what);
   }
 
+  /// Takes another reader's error over, if it has one.
+  void adopt(const FieldReader& other) {
+    if (!error_) error_ = other.error_;
+  }
+
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
  private:

@@ -4,6 +4,7 @@
 
 #include "gltf_arrays.h"
 #include "gltf_buffers.h"
+#include "json_edits.h"
 #include "quadmark/io/gltf.h"
 
 namespace quadmark::io {
@@ -19,17 +20,34 @@ class GltfModel final : public Model {
                                             std::span<const std::uint32_t> order) const override;
 
  private:
-  /// The min and max of an accessor, to be kept true to the vertices it covers.
+  /// The min and max of an accessor, to be kept true to its elements.
   struct Bounds {
     FileSpan min, max;
-    std::uint32_t array = 0;
-    std::uint64_t firstVertex = 0, count = 0;
+    std::uint32_t window = 0;
+  };
+  /// What the codes of one component range over, before and after a patch.
+  struct Extent {
+    double low[3], high[3];
+    bool empty = true;
+    void include(const double (&codes)[3]);
   };
 
+  /// Fills in which elements the values of sparse accessors replace.
+  Status readReplaced(const GltfDocument& document, const std::vector<BufferBytes>& buffers);
   Status readPositions(const std::vector<BufferBytes>& buffers);
   Status readFaces(const GltfDocument& document, const std::vector<BufferBytes>& buffers, std::uint64_t totalBytes,
                    std::uint64_t memoryLimit);
   void readGroups(const GltfDocument& document);
+  void setGrid(std::uint64_t firstVertex, std::uint64_t count, const CoordinateGrid& grid);
+  [[nodiscard]] Error notFinite(std::uint64_t vertex, int axis) const;
+
+  [[nodiscard]] Status checkPatch(std::span<const double> positions, const std::vector<BufferBytes>& buffers) const;
+  [[nodiscard]] Status editBounds(Bytes file, const Bounds& bounds, std::span<const double> positions,
+                                  const std::vector<BufferBytes>& buffers, const std::vector<bool>& decompressed,
+                                  JsonEdits& edits) const;
+  void includeElements(const PositionWindow& window, std::uint64_t begin, std::uint64_t end,
+                       std::span<const double> positions, const std::vector<BufferBytes>& buffers, Extent& before,
+                       Extent& after) const;
 
   GltfContainer container_;
   std::size_t fileSize_ = 0;

@@ -50,10 +50,20 @@ struct FaceSource {
   }
 };
 
-template <class Stream>
-Status appendFaces(const FaceSource& source, const Stream& stream, Mesh& mesh) {
+/// The mesh vertex of an accessor's element: of a plain accessor, and of one whose elements lie in several places.
+struct PlainVertices {
+  std::uint32_t base;
+  [[nodiscard]] std::uint32_t operator()(std::uint32_t element) const { return base + element; }
+};
+struct SparseVertices {
+  const PositionArrays& positions;
+  const PositionWindow& window;
+  [[nodiscard]] std::uint32_t operator()(std::uint32_t element) const { return positions.vertexOf(window, element); }
+};
+
+template <class Stream, class Vertices>
+Status appendFaces(const FaceSource& source, const Stream& stream, const Vertices& vertexOf, Mesh& mesh) {
   const std::uint64_t vertexCount = source.window->count;
-  const auto base = static_cast<std::uint32_t>(source.window->firstVertex);
   const std::uint32_t mode = source.primitive->mode;
   const std::uint64_t used = mode == 4 ? source.count / 3 * 3 : source.count;
   for (std::uint64_t i = 0; i < source.count; ++i) {
@@ -66,30 +76,31 @@ Status appendFaces(const FaceSource& source, const Stream& stream, Mesh& mesh) {
     const std::size_t begin = mesh.faceVertices.size();
     mesh.faceVertices.resize(begin + static_cast<std::size_t>(used));
     std::uint32_t* corners = mesh.faceVertices.data() + begin;
-    for (std::uint64_t i = 0; i < used; ++i) corners[i] = base + stream(i);
+    for (std::uint64_t i = 0; i < used; ++i) corners[i] = vertexOf(stream(i));
     return okStatus();
   }
   FaceCollector faces(mesh);
   if (mode == 5) {
-    for (std::uint64_t i = 0; i < used; ++i) faces.stripVertex(base + stream(i));
+    for (std::uint64_t i = 0; i < used; ++i) faces.stripVertex(vertexOf(stream(i)));
     return okStatus();
   }
   for (std::uint64_t i = 2; i < used; ++i) {
-    const std::uint32_t a = stream(0), b = stream(i - 1), c = stream(i);
-    if (a != b && b != c && a != c) faces.addTriangle(base + a, base + b, base + c);
+    const std::uint32_t a = vertexOf(stream(0)), b = vertexOf(stream(i - 1)), c = vertexOf(stream(i));
+    if (a != b && b != c && a != c) faces.addTriangle(a, b, c);
   }
   return okStatus();
 }
 
-Status appendFaces(const FaceSource& source, Mesh& mesh) {
-  if (source.indices == nullptr) return appendFaces(source, CountingStream{}, mesh);
+template <class Vertices>
+Status appendFaces(const FaceSource& source, const Vertices& vertexOf, Mesh& mesh) {
+  if (source.indices == nullptr) return appendFaces(source, CountingStream{}, vertexOf, mesh);
   switch (source.componentType) {
-    case 5121:
-      return appendFaces(source, IndexStream<std::uint8_t>{source.indices}, mesh);
-    case 5123:
-      return appendFaces(source, IndexStream<std::uint16_t>{source.indices}, mesh);
+    case kGltfUint8:
+      return appendFaces(source, IndexStream<std::uint8_t>{source.indices}, vertexOf, mesh);
+    case kGltfUint16:
+      return appendFaces(source, IndexStream<std::uint16_t>{source.indices}, vertexOf, mesh);
     default:
-      return appendFaces(source, IndexStream<std::uint32_t>{source.indices}, mesh);
+      return appendFaces(source, IndexStream<std::uint32_t>{source.indices}, vertexOf, mesh);
   }
 }
 
@@ -106,26 +117,75 @@ std::vector<std::uint32_t> findSameBuffers(const std::vector<BufferPlace>& place
 
 }  // namespace
 
-Status GltfModel::readPositions(const std::vector<BufferBytes>& buffers) {
-  mesh_.positions.resize(static_cast<std::size_t>(3 * positions_.vertexCount));
-  for (const PositionArray& array : positions_.arrays) {
-    const std::uint8_t* element = buffers[array.buffer].bytes.data() + array.start;
-    double* out = &mesh_.positions[static_cast<std::size_t>(3 * array.firstVertex)];
-    for (std::uint64_t i = 0; i < array.count; ++i, element += array.stride, out += 3) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const float value = load<float>(element + 4 * axis);
-        out[axis] = value;
-        if (std::isfinite(value)) continue;
-        const std::uint64_t vertex = array.firstVertex + i;
-        for (const PositionWindow& window : positions_.windows) {
-          if (vertex < window.firstVertex || vertex - window.firstVertex >= window.count) continue;
-          return badMesh("accessor " + std::to_string(window.accessor) + ": vertex " +
-                         std::to_string(vertex - window.firstVertex) + ", component " + "xyz"[axis] + " is not finite");
-        }
+Status GltfModel::readReplaced(const GltfDocument& document, const std::vector<BufferBytes>& buffers) {
+  for (PositionWindow& window : positions_.windows) {
+    if (window.values == kNone) continue;
+    const GltfSparse& sparse = *document.accessors[window.accessor].sparse;
+    const GltfView& view = document.views[sparse.indicesView];
+    const std::uint8_t* bytes = buffers[view.buffer].bytes.data() + view.byteOffset + sparse.indicesOffset;
+    std::vector<std::uint32_t>& replaced = positions_.windows[window.values].replaced;
+    replaced.reserve(static_cast<std::size_t>(sparse.count));
+    for (std::uint64_t i = 0; i < sparse.count; ++i) {
+      const std::uint32_t width = componentBytes(sparse.indicesType);
+      const std::uint32_t index = width == 1   ? load<std::uint8_t>(bytes + i)
+                                  : width == 2 ? load<std::uint16_t>(bytes + 2 * i)
+                                               : load<std::uint32_t>(bytes + 4 * i);
+      if (index >= window.count || (i > 0 && index <= replaced.back())) {
+        return badFile("accessor " + std::to_string(window.accessor) + " sparse.indices: " + std::to_string(index) +
+                       " at position " + std::to_string(i) + " is not ascending or exceeds " +
+                       std::to_string(window.count) + " elements");
       }
+      replaced.push_back(index);
     }
   }
   return okStatus();
+}
+
+Error GltfModel::notFinite(std::uint64_t vertex, int axis) const {
+  const auto window =
+      std::find_if(positions_.windows.begin(), positions_.windows.end(), [&](const PositionWindow& w) {
+        return w.isStored() && vertex >= w.firstVertex && vertex - w.firstVertex < w.count;
+      });
+  const bool isValue = positions_.windows[positions_.windowOf[window->accessor]].values != kNone &&
+                       &*window != &positions_.windows[positions_.windowOf[window->accessor]];
+  return badMesh("accessor " + std::to_string(window->accessor) + ": " + (isValue ? "sparse value " : "vertex ") +
+                 std::to_string(vertex - window->firstVertex) + ", component " + "xyz"[axis] + " is not finite");
+}
+
+Status GltfModel::readPositions(const std::vector<BufferBytes>& buffers) {
+  mesh_.positions.resize(static_cast<std::size_t>(3 * positions_.vertexCount));
+  std::uint64_t stored = 0;
+  for (const PositionArray& array : positions_.arrays) {
+    const std::optional<CoordinateGrid> grid = array.type.grid();
+    if (grid) setGrid(array.firstVertex, array.count, *grid);
+    stored = std::max(stored, array.firstVertex + array.count);
+    double* out = &mesh_.positions[static_cast<std::size_t>(3 * array.firstVertex)];
+    Status status = withComponent(array.type.component, [&](auto component) -> Status {
+      using T = decltype(component);
+      const double divisor = grid ? grid->divisor : 1;
+      const std::uint8_t* element = buffers[array.buffer].bytes.data() + array.start;
+      for (std::uint64_t i = 0; i < array.count; ++i, element += array.stride, out += 3) {
+        for (int axis = 0; axis < 3; ++axis) {
+          const T code = load<T>(element + sizeof(T) * static_cast<std::size_t>(axis));
+          out[axis] = decodeComponent(code, divisor);
+          if (!std::isfinite(out[axis])) return notFinite(array.firstVertex + i, axis);
+        }
+      }
+      return okStatus();
+    });
+    if (!status) return status;
+  }
+  if (stored < positions_.vertexCount) setGrid(stored, positions_.vertexCount - stored, CoordinateGrid{1, 0, 0});
+  return okStatus();
+}
+
+void GltfModel::setGrid(std::uint64_t firstVertex, std::uint64_t count, const CoordinateGrid& grid) {
+  std::size_t number = 0;
+  while (number < mesh_.grids.size() && !(mesh_.grids[number] == grid)) ++number;
+  if (number == mesh_.grids.size()) mesh_.grids.push_back(grid);
+  mesh_.gridOf.resize(static_cast<std::size_t>(positions_.vertexCount));
+  const auto first = mesh_.gridOf.begin() + static_cast<std::ptrdiff_t>(firstVertex);
+  std::fill(first, first + static_cast<std::ptrdiff_t>(count), static_cast<std::uint8_t>(number + 1));
 }
 
 Status GltfModel::readFaces(const GltfDocument& document, const std::vector<BufferBytes>& buffers,
@@ -163,7 +223,11 @@ Status GltfModel::readFaces(const GltfDocument& document, const std::vector<Buff
   }
   mesh_.faceVertices.reserve(static_cast<std::size_t>(corners));
   for (const FaceSource& source : sources) {
-    if (Status status = appendFaces(source, mesh_); !status) return status;
+    const PositionWindow& window = *source.window;
+    const bool plain = window.isStored() && window.values == kNone;
+    Status status = plain ? appendFaces(source, PlainVertices{static_cast<std::uint32_t>(window.firstVertex)}, mesh_)
+                          : appendFaces(source, SparseVertices{positions_, window}, mesh_);
+    if (!status) return status;
   }
   return okStatus();
 }
@@ -178,25 +242,36 @@ void GltfModel::readGroups(const GltfDocument& document) {
   };
   std::vector<std::uint32_t> arrayMesh(positions_.arrays.size(), kNone);
   std::vector<std::uint32_t> windowMesh(positions_.windows.size(), kNone);
+  std::vector<std::uint32_t> zerosMesh(positions_.windows.size(), kNone);
   for (const GltfPrimitive& primitive : document.primitives) {
     if (!primitive.hasTriangles()) continue;
     const std::uint32_t window = positions_.windowOf[primitive.position];
-    windowMesh[window] = std::min(windowMesh[window], primitive.mesh);
-    std::uint32_t& first = arrayMesh[positions_.windows[window].array];
-    if (first == kNone) first = primitive.mesh;
-    const std::uint32_t a = find(first), b = find(primitive.mesh);
-    leader[std::max(a, b)] = std::min(a, b);
+    for (const std::uint32_t part : {window, positions_.windows[window].values}) {
+      if (part == kNone) continue;
+      windowMesh[part] = std::min(windowMesh[part], primitive.mesh);
+      // What is stored nowhere is a place of its own.
+      const PositionWindow& place = positions_.windows[part];
+      std::uint32_t& first = place.isStored() ? arrayMesh[place.array] : zerosMesh[part];
+      if (first == kNone) first = primitive.mesh;
+      const std::uint32_t a = find(first), b = find(primitive.mesh);
+      leader[std::max(a, b)] = std::min(a, b);
+    }
   }
   vertexMesh_.assign(static_cast<std::size_t>(positions_.vertexCount), kNone);
   for (std::size_t i = 0; i < positions_.windows.size(); ++i) {
     const PositionWindow& window = positions_.windows[i];
-    for (std::uint64_t v = window.firstVertex; v < window.firstVertex + window.count; ++v) {
+    const std::uint64_t count = window.isStored() ? window.count : 1;
+    for (std::uint64_t v = window.firstVertex; v < window.firstVertex + count; ++v) {
       vertexMesh_[static_cast<std::size_t>(v)] = std::min(vertexMesh_[static_cast<std::size_t>(v)], windowMesh[i]);
     }
   }
   std::vector<std::uint32_t> groupOf(leader.size(), kNone);
   std::vector<bool> drawn(leader.size());
-  for (const std::uint32_t mesh : arrayMesh) drawn[find(mesh)] = true;
+  for (const std::vector<std::uint32_t>* meshes : {&arrayMesh, &zerosMesh}) {
+    for (const std::uint32_t mesh : *meshes) {
+      if (mesh != kNone) drawn[find(mesh)] = true;
+    }
+  }
   std::uint32_t groups = 0;
   for (std::uint32_t mesh = 0; mesh < leader.size(); ++mesh) {
     if (drawn[mesh]) groupOf[mesh] = groups++;
@@ -232,7 +307,7 @@ Status GltfModel::read(Bytes file, const Resources& resources) {
   Result<PositionArrays> arrays = collectPositionArrays(document, findSameBuffers(buffers_));
   if (!arrays) return arrays.error();
   positions_ = std::move(arrays).value();
-  if (positions_.arrays.empty()) return badMesh("glTF: the file has no triangles");
+  if (positions_.windows.empty()) return badMesh("glTF: the file has no triangles");
   if (!positions_.conflict.empty())
     info_.warnings.push_back(positions_.conflict + "; marking this file will be refused");
 
@@ -247,13 +322,14 @@ Status GltfModel::read(Bytes file, const Resources& resources) {
     if (!inFile) totalBytes += buffers[i].bytes.size();
   }
   std::uint64_t windowed = 0;
-  for (const PositionWindow& window : positions_.windows) windowed += window.count;
+  for (const PositionWindow& window : positions_.windows) windowed += window.isStored() ? window.count : 1;
   if (windowed > totalBytes) return tooLarge("glTF: accessors reuse the same positions too often");
   const std::uint64_t limit = memoryLimit(file, resources);
   if (positions_.vertexCount > limit / (3 * sizeof(double))) {
     return tooLarge("glTF: " + std::to_string(positions_.vertexCount) +
                     " vertices are too many for a file of this size");
   }
+  if (Status status = readReplaced(document, buffers); !status) return status;
   if (Status status = readPositions(buffers); !status) return status;
 
   // 3. Faces and groups.
@@ -263,10 +339,10 @@ Status GltfModel::read(Bytes file, const Resources& resources) {
   if (boundingDiagonal(mesh_) == 0) return badMesh("glTF: all used vertices are at one point");
 
   // 4. What patch() will need.
-  for (const PositionWindow& window : positions_.windows) {
-    const GltfAccessor& accessor = document.accessors[window.accessor];
-    if (accessor.min.empty() && accessor.max.empty()) continue;
-    bounds_.push_back(Bounds{accessor.min, accessor.max, window.array, window.firstVertex, window.count});
+  for (std::uint32_t i = 0; i < positions_.windows.size(); ++i) {
+    const GltfAccessor& accessor = document.accessors[positions_.windows[i].accessor];
+    if (positions_.windowOf[positions_.windows[i].accessor] != i || (accessor.min.empty() && accessor.max.empty())) continue;
+    bounds_.push_back(Bounds{accessor.min, accessor.max, i});
   }
   return okStatus();
 }

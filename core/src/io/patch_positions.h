@@ -6,23 +6,26 @@
 #include <span>
 
 #include "bytes.h"
-#include "quadmark/mesh.h"
 
 namespace quadmark::io {
 
-/// Fails with badOption unless there are 3 finite positions per vertex, each representable in the file's precision.
-inline Status checkPositions(std::span<const double> positions, std::uint64_t vertexCount, Precision precision) {
-  if (positions.size() != 3 * vertexCount) {
-    return Error{ErrorCode::badOption, "positions: " + std::to_string(positions.size()) + " numbers for " +
-                                           std::to_string(vertexCount) + " vertices"};
-  }
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const float rounded = static_cast<float>(positions[i]);
-    const bool fits = precision == Precision::float64 || double{rounded} == positions[i];
-    if (!std::isfinite(positions[i]) || !fits) {
-      return Error{ErrorCode::badOption, "positions: vertex " + std::to_string(i / 3) + ", component " + "xyz"[i % 3] +
-                                             " is not a finite number of the file's precision"};
-    }
+/// Fails with badOption unless there are 3 numbers per vertex.
+inline Status checkPositions(std::span<const double> positions, std::uint64_t vertexCount) {
+  if (positions.size() == 3 * vertexCount) return okStatus();
+  return Error{ErrorCode::badOption, "positions: " + std::to_string(positions.size()) + " numbers for " +
+                                         std::to_string(vertexCount) + " vertices"};
+}
+
+inline bool fitsFloat32(double x) { return double{static_cast<float>(x)} == x; }
+
+/// Fails with badOption, naming the vertex, unless the coordinates of a range are finite and fits(coordinate).
+template <class Fits>
+Status checkRepresentable(std::span<const double> positions, std::uint64_t firstVertex, std::uint64_t count,
+                          const Fits& fits) {
+  for (auto i = static_cast<std::size_t>(3 * firstVertex); i < static_cast<std::size_t>(3 * (firstVertex + count)); ++i) {
+    if (std::isfinite(positions[i]) && fits(positions[i])) continue;
+    return Error{ErrorCode::badOption, "positions: vertex " + std::to_string(i / 3) + ", component " + "xyz"[i % 3] +
+                                           " is not a finite number of the file's precision"};
   }
   return okStatus();
 }

@@ -35,7 +35,10 @@ Result<PatchedFile> PlyModel::patch(std::span<const std::uint8_t> file, const Re
                                     std::span<const double> positions) const {
   if (file.size() != fileSize_) return notTheFile();
   const std::uint64_t vertexCount = vertexElement().count;
-  if (Status status = checkPositions(positions, vertexCount, mesh_.precision); !status) return status.error();
+  if (Status status = checkPositions(positions, vertexCount); !status) return status.error();
+  const bool wide = mesh_.precision == Precision::float64;
+  Status status = checkRepresentable(positions, 0, vertexCount, [&](double x) { return wide || fitsFloat32(x); });
+  if (!status) return status.error();
   return header_.encoding == PlyEncoding::ascii ? patchText(file, positions) : patchBinary(file, positions);
 }
 

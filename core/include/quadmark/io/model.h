@@ -58,8 +58,8 @@ class Model {
  public:
   virtual ~Model() = default;
 
-  /// All triangles and polygons of the file in local (accessor) space. A position stored once is one vertex, however
-  /// many primitives, meshes or nodes use it. Mesh::groups numbers the glTF meshes (meshes that share a POSITION
+  /// All triangles and polygons of the file in local (accessor) space, integers dequantized, sparse values in their
+  /// places. A position stored once is one vertex, however many primitives, meshes or nodes use it. Mesh::groups numbers the glTF meshes (meshes that share a POSITION
   /// accessor are one group).
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   [[nodiscard]] Mesh& mesh() { return mesh_; }
@@ -76,7 +76,7 @@ class Model {
   /// of those accessors' min / max changes. A component whose value is unchanged keeps its bytes, in text files its
   /// spelling too. Compressed glTF positions that change become plain data appended to the file, which the warnings say.
   /// @param file, resources  the same bytes that were read.
-  /// @param positions        3 per vertex of mesh(), already representable in the file's precision.
+  /// @param positions        3 per vertex of mesh(), already representable as roundToPrecision() has it.
   /// @return the new file. Fails with badOption (positions of another number or precision, or not the bytes that were
   ///         read), unsupportedFile (positions share bytes with other data; info().warnings already says so) or
   ///         internal (the self-check found a difference outside the allowed spans).
