@@ -41,6 +41,3 @@ export async function runTool(commandLine, model, resources = {}) {
     rmSync(folder, { recursive: true, force: true });
   }
 }
-
-/** The same as { name, run } for one command line. */
-export const tool = (commandLine) => ({ name: commandLine, run: (model) => runTool(commandLine, model) });
