@@ -9,10 +9,14 @@ import { test } from 'node:test';
 import { Worker } from 'node:worker_threads';
 import factory from '../node/dist/quadmark.js';
 import { createApi } from '../node/src/api.js';
+import { needsDraco } from '../node/src/draco.js';
 import { Loader } from '../node/src/load.js';
+import { generate } from 'quadmark/lab';
+import { drc } from './support/draco.mjs';
 import { repository, run, temporaryFolder } from './support/files.mjs';
 
 const wasmUrl = new URL('../node/dist/quadmark.wasm', import.meta.url);
+const dracoUrl = new URL('../node/dist/quadmark_draco.wasm', import.meta.url);
 const wasmBytes = await readFile(wasmUrl);
 const fromFile = () => new Loader(factory, () => readFile(wasmUrl));
 
@@ -63,6 +67,48 @@ test('the wasm may be given as bytes, module, response or URL', async (t) => {
     const api = createApi(new Loader(factory, () => readFile(wasmUrl)));
     await assert.rejects(api.load({ wasm }), { name: 'QuadmarkError', code: 'io' }, name);
     assert.match(await api.version(), /^\d/, `${name}: a later call tries again`);
+  }
+});
+
+test('the module with Draco is fetched with the first model that needs it', async () => {
+  const reads = { plain: 0, draco: 0 };
+  const loader = new Loader(factory, () => { ++reads.plain; return readFile(wasmUrl); });
+  const draco = new Loader(async (options) => (await import('../node/dist/quadmark_draco.js')).default(options),
+    () => { ++reads.draco; return readFile(dracoUrl); });
+  const api = createApi(loader, draco);
+  const { bytes } = await generate({ name: 'icosphere', vertices: 200, format: 'glb' });
+  assert.equal((await api.inspect(bytes)).format, 'glb');
+  await api.externalUris(drc);
+  assert.deepEqual(reads, { plain: 1, draco: 0 });
+  const [first, second] = await Promise.all([api.inspect(drc), api.inspect(drc)]);
+  assert.deepEqual(first, second);
+  assert.equal(first.format, 'drc');
+  assert.equal(first.faces, 8);
+  assert.deepEqual(reads, { plain: 1, draco: 1 });
+  assert.equal(api.memoryBytes(), loader.memoryBytes + draco.memoryBytes);
+  api.unload();
+  assert.equal(api.memoryBytes(), 0);
+  // What escapes hide is refused by name, not misread.
+  await assert.rejects(createApi(loader).inspect(drc), { code: 'unsupported_file', message: /no Draco decoder/ });
+
+  const elsewhere = createApi(fromFile(), new Loader(async (options) => (await import('../node/dist/quadmark_draco.js')).default(options),
+    () => assert.fail('the default was used')));
+  await elsewhere.load({ dracoWasm: readFile(dracoUrl) });
+  assert.equal((await elsewhere.inspect(drc)).vertices, 9);
+});
+
+test('models that need Draco are told by their bytes', () => {
+  const text = (json) => Buffer.from(JSON.stringify(json));
+  const glb = (json) => {
+    const bytes = Buffer.concat([Buffer.alloc(20), text(json), Buffer.from('KHR_draco_mesh_compression"KHR_draco_mesh_compression"')]);
+    bytes.write('glTF', 'latin1');
+    bytes.writeUInt32LE(text(json).length, 12);
+    return bytes;
+  };
+  const named = { extensionsUsed: ['KHR_draco_mesh_compression'] };
+  for (const model of [drc, text(named), glb(named), Buffer.from(`\ufeff ${text(named)}`)]) assert.equal(needsDraco(model), true);
+  for (const model of [text({}), glb({}), Buffer.from('ply\n"KHR_draco_mesh_compression"'), new Uint8Array(), Buffer.from('glTF')]) {
+    assert.equal(needsDraco(model), false);
   }
 });
 

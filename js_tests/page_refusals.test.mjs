@@ -29,7 +29,7 @@ test('broken models are refused with the file and the place', async (t) => {
   lying.writeUInt32LE(0xfffffff0, 12);  // the length of the JSON chunk
   const cases = [
     ['empty.glb', new Uint8Array(0), /^empty\.glb cannot be read\.$/, /empty/],
-    ['magic.glb', Buffer.from('Kaydara FBX Binary  \0'), /^magic\.glb cannot be read\.$/, /not a PLY, glTF or GLB.*Kaydara/],
+    ['magic.glb', Buffer.from('Kaydara FBX Binary  \0'), /^magic\.glb cannot be read\.$/, /not a PLY, glTF, GLB or DRC.*Kaydara/],
     ['cut.glb', marked.subarray(0, marked.length >> 1), /^cut\.glb cannot be read\.$/, /GLB|chunk|ends/],
     ['lying.glb', lying, /^lying\.glb cannot be read\.$/, /chunk|JSON|length/],
     ['cut.ply', ply('0 0 0\n1 0 0\n1 1 0\n0 1 0.5').slice(0, -20), /^cut\.ply cannot be read\.$/, /vertex|face/],
@@ -96,7 +96,7 @@ test('files of no use, and too many of a kind, are said and change nothing', asy
   const { page, seen } = await openPage(t, browser);
   await drop(page, onDisk(t, { 'photo.jpg': 'not one of ours' }).paths);
   await page.locator('#notices li').waitFor();
-  assert.deepEqual((await shown(page)).notices, ['photo.jpg was left aside: it is neither a model (GLB, glTF, PLY), nor a key file, nor a PNG picture.']);
+  assert.deepEqual((await shown(page)).notices, ['photo.jpg was left aside: it is neither a model (GLB, glTF, PLY, DRC), nor a key file, nor a PNG picture.']);
   await drop(page, onDisk(t, { 'a.glb': marked, 'b.glb': marked, 'key.json': key }).paths);
   await page.waitForFunction(() => document.getElementById('idle-text').textContent === 'The key is here. Now add the model.');
   assert.deepEqual((await shown(page)).notices, ['2 models at once (a.glb, b.glb): give one at a time.']);

@@ -5,7 +5,9 @@ import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
 import { brotliCompressSync, constants } from 'node:zlib';
 
-const limits = { 'quadmark.wasm': 200_000, 'quadmark.js': 15_000 };
+const limits = {
+  'quadmark.wasm': 200_000, 'quadmark.js': 15_000, 'quadmark_draco.wasm': 330_000, 'quadmark_draco.js': 15_000,
+};
 
 for (const [name, limit] of Object.entries(limits)) {
   test(`${name} has at most ${limit / 1000} kB after brotli`, async (t) => {

@@ -16,7 +16,7 @@ test('the tarball works in an empty folder', { timeout: 180000 }, async (t) => {
   assert.equal(packed.status, 0, packed.stderr);
   const [{ filename, files }] = JSON.parse(packed.stdout);
   const names = files.map(({ path }) => path);
-  for (const name of ['package.json', 'README.md', 'LICENSE', 'dist/quadmark.js', 'dist/quadmark.wasm', 'src/index.d.ts', 'src/cli/main.js']) {
+  for (const name of ['package.json', 'README.md', 'LICENSE', 'dist/quadmark.js', 'dist/quadmark.wasm', 'dist/quadmark_draco.js', 'dist/quadmark_draco.wasm', 'src/index.d.ts', 'src/cli/main.js']) {
     assert.ok(names.includes(name), `${name} is packed`);
   }
   for (const name of names) assert.match(name, /^(package\.json|README\.md|LICENSE|(src|dist)\/[\w/.]+)$/, 'nothing else is packed');

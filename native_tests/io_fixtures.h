@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/bytes.h"
+#include "number_text.h"
 #include "quadmark/io/gltf.h"
 #include "quadmark/io/model.h"
 #include "quadmark/io/ply.h"
@@ -22,6 +23,15 @@ inline FileBytes bytesOf(std::string_view text) {
 }
 inline std::string textOf(const FileBytes& bytes) {
   return {bytes.begin(), bytes.end()};
+}
+
+/// Bytes spelled as pairs of hexadecimal digits.
+inline FileBytes fromHex(std::string_view text) {
+  FileBytes bytes;
+  for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
+    bytes.push_back(static_cast<std::uint8_t>(16 * hexDigit(text[i]) + hexDigit(text[i + 1])));
+  }
+  return bytes;
 }
 
 /// Replaces every occurrence of a placeholder.
@@ -66,6 +76,14 @@ inline const std::vector<std::vector<int>>& gridTriangles() {
   static const std::vector<std::vector<int>> faces = {{0, 1, 4}, {0, 4, 3}, {1, 2, 4}, {2, 5, 4},
                                                       {3, 4, 6}, {4, 7, 6}, {4, 5, 8}, {4, 8, 7}};
   return faces;
+}
+
+/// The grid with two vertices moved; the bounds change.
+inline std::vector<double> movedGrid() {
+  std::vector<double> positions = gridPositions();
+  positions[3 * 4] = 1.1f;
+  positions[3 * 8 + 2] = -1.25;
+  return positions;
 }
 
 /// How to spell the grid as a PLY.

@@ -5,7 +5,6 @@
 #include "io/meshopt.h"
 #include "io_allocations.h"
 #include "io_fixtures.h"
-#include "number_text.h"
 #include "quadmark/random.h"
 
 namespace quadmark::test {
@@ -15,14 +14,6 @@ using io::decodeMeshopt;
 using io::MeshoptFilter;
 using io::MeshoptLayout;
 using io::MeshoptMode;
-
-FileBytes fromHex(std::string_view text) {
-  FileBytes bytes;
-  for (std::size_t i = 0; i < text.size(); i += 2) {
-    bytes.push_back(static_cast<std::uint8_t>(16 * hexDigit(text[i]) + hexDigit(text[i + 1])));
-  }
-  return bytes;
-}
 
 /// The grid's data as the encoder of the npm package meshoptimizer 1.3.0 compresses it.
 struct Golden {
@@ -218,13 +209,6 @@ INSTANTIATE_TEST_SUITE_P(AllCodecs, CompressedGrid,
                                             ::testing::Values("vertex codec 0", "vertex codec 1", "exponential filter"),
                                             ::testing::Values("triangles", "indices")),
                          goldenName);
-
-std::vector<double> movedGrid() {
-  std::vector<double> positions = gridPositions();
-  positions[3 * 4] = 1.1f;
-  positions[3 * 8 + 2] = -1.25;
-  return positions;
-}
 
 TEST_P(CompressedGrid, IsReadAsThePlainOne) {
   const auto model = readModel(makeGlb(json_, bin_));

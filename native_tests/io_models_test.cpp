@@ -91,25 +91,5 @@ TEST(RealModels, ReadAsKnownAndKeepEverythingButPositions) {
   }
 }
 
-TEST(RealModels, AreRefusedByNameWhereThisVersionCannotReadThem) {
-  const struct {
-    const char* name;
-    ErrorCode code;
-    const char* place;
-  } refused[] = {
-      {"Box_Draco.glb", ErrorCode::unsupportedFile, "KHR_draco_mesh_compression"},
-      {"bunny_gltf.drc", ErrorCode::badFile, "\"DRACO"},
-  };
-  for (const auto& entry : refused) {
-    SCOPED_TRACE(entry.name);
-    const std::optional<FileBytes> file = modelBytes(entry.name);
-    if (!file) continue;
-    const Result<std::unique_ptr<Model>> read = readModel(*file);
-    ASSERT_FALSE(read.ok());
-    EXPECT_EQ(read.error().code, entry.code);
-    EXPECT_NE(read.error().message.find(entry.place), std::string::npos) << read.error().message;
-  }
-}
-
 }  // namespace
 }  // namespace quadmark::test

@@ -234,7 +234,7 @@ TEST(ReadPly, RefusesBrokenBodiesNamingThePlace) {
   expectRefused(broken("1 0 0\n0 1 0.5", "0 0 0\n0 0 0"), ErrorCode::badMesh, "at one point");
   expectRefused(broken("element face 1", "element face 0"), ErrorCode::badMesh, "no faces");
   expectRefused(bytesOf(""), ErrorCode::badFile, "empty");
-  expectRefused(bytesOf("plyx\n"), ErrorCode::badFile, "not a PLY, glTF or GLB");
+  expectRefused(bytesOf("plyx\n"), ErrorCode::badFile, "not a PLY, glTF, GLB or DRC");
   expectRefused(bytesOf("ply"), ErrorCode::badFile, "not a PLY");
   expectRefused(bytesOf("ply\n"), ErrorCode::badFile, "no end_header");
   expectRefused(bytesOf("solid stl\n"), ErrorCode::badFile, "\"solid st\"");

@@ -17,6 +17,7 @@ mkdir -p "$deps"
 
 readonly node_minimum=20.19.0
 readonly em_minimum=3.1.6
+readonly draco_sha256=0d4ff5b218a2f9d836c6f44202918402591407b5f59a5103ec288c5600ab087f
 readonly meshoptimizer_sha256=881ea2cc687f1fef5ce70484e0ca6504e13856dd856677749f3763bc685956d3
 
 want_browser=yes
@@ -60,7 +61,7 @@ install_packages() {
 
 # 1. Compilers and libraries.
 install_packages ca-certificates g++ cmake ninja-build libeigen3-dev nlohmann-json3-dev libstb-dev \
-  libgtest-dev googletest libmeshoptimizer-dev xz-utils clang libclang-rt-dev
+  libgtest-dev googletest libdraco-dev libmeshoptimizer-dev xz-utils clang libclang-rt-dev
 
 # 2. Emscripten: an activated emsdk wins; else the distribution's.
 have em++ || install_packages emscripten
@@ -139,14 +140,19 @@ if [ $want_browser = yes ] && [ -z "$browser" ]; then
   [ -n "$browser" ] || fail "no working Chromium; set QUADMARK_CHROMIUM or use --no-browser"
 fi
 
-# 5. meshoptimizer's source, for wasm and for equal bits natively: the distribution's own source package, fetched by
-#    apt through a private list made from this machine's package sources.
-if [ ! -f "$deps/meshoptimizer/src/meshoptimizer.h" ]; then
+# 5. Sources of what wasm needs and the distribution compiles natively alone: its own source packages, fetched by apt
+#    through a private list made from this machine's package sources. meshoptimizer is compiled from them natively too,
+#    for equal bits.
+# fetch_once PACKAGE FILE_THAT_IS_THERE TARBALL SHA256
+fetch_once() {
+  [ -f "$deps/$1/$2" ] && return
   have xz || install_packages xz-utils
   have dpkg-source || install_packages dpkg-dev
-  say "fetching the source of meshoptimizer"
-  scripts/fetch_source.sh meshoptimizer "$deps/meshoptimizer" meshoptimizer_0.18+dfsg.orig.tar.xz $meshoptimizer_sha256
-fi
+  say "fetching the source of $1"
+  scripts/fetch_source.sh "$1" "$deps/$1" "$3" "$4"
+}
+fetch_once meshoptimizer src/meshoptimizer.h meshoptimizer_0.18+dfsg.orig.tar.xz $meshoptimizer_sha256
+fetch_once draco src/draco/compression/decode.h draco_1.5.5+dfsg.orig.tar.xz $draco_sha256
 
 # 6. npm packages, exactly those of the lock file.
 if ! cmp -s package-lock.json node_modules/.quadmark-lock.json; then

@@ -150,6 +150,7 @@ Result<EmbedResponse> embed(std::span<const std::uint8_t> file, const Resources&
   if (!tell(request.progress, "read", 0)) return cancelled();
   auto model = readModel(file, resources);
   if (!model) return model.error();
+  if (Status s = (*model)->checkMarkable(); !s) return s.error();
   const Mesh& mesh = (*model)->mesh();
 
   auto marked = embedMesh(mesh, *bits, request.key, request.progress);

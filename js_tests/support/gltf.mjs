@@ -19,6 +19,25 @@ export function openGltf(bytes) {
   return { text, json: JSON.parse(text), bin };
 }
 
+/** Bytes up to the next multiple of 4. */
+export const padded = (bytes, by = 0) => Buffer.concat([bytes, Buffer.alloc((4 - (bytes.length % 4)) % 4, by)]);
+
+/** A GLB of a JSON object and a BIN chunk. */
+export function makeGlb(json, bin) {
+  const header = Buffer.alloc(12);
+  header.write('glTF', 'latin1');
+  header.writeUInt32LE(2, 4);
+  const chunks = [[0x4e4f534a, padded(Buffer.from(JSON.stringify(json)), ' ')], [0x004e4942, padded(bin)]];
+  const file = Buffer.concat([header, ...chunks.flatMap(([type, data]) => {
+    const head = Buffer.alloc(8);
+    head.writeUInt32LE(data.length, 0);
+    head.writeUInt32LE(type, 4);
+    return [head, data];
+  })]);
+  file.writeUInt32LE(file.length, 8);
+  return file;
+}
+
 /** Makes a .gltf with the external buffer `uri` from a GLB. */
 export function splitGlb(glb, uri) {
   const { json, bin } = openGltf(glb);

@@ -2,6 +2,7 @@
 // The public calls over a Loader: they check types, convert plain data, and turn failures into QuadmarkError. What a
 // value may be (ranges, sizes, formats) is the core's to decide.
 import { toBytes, toEntries, toIdDigits, toImage, toKeyJson, known, isObject } from './arguments.js';
+import { needsDraco } from './draco.js';
 import { QuadmarkError } from './error.js';
 
 /** The value of a binding, or its failure thrown. */
@@ -53,8 +54,13 @@ async function runLong(loader, options, use) {
   });
 }
 
-/** Binds the calls to one module. Documented in index.d.ts. */
-export function createApi(loader) {
+/**
+ * Binds the calls to the module. Documented in index.d.ts.
+ * @param loader       of the module that everything but Draco goes through
+ * @param dracoLoader  of the same module with Draco's decoder, loaded for the first model that needs it
+ */
+export function createApi(loader, dracoLoader = loader) {
+  const loaderFor = (model) => (needsDraco(model) ? dracoLoader : loader);
   return {
     async embed(model, request) {
       const { key, image, id, resources, options } =
@@ -66,7 +72,7 @@ export function createApi(loader) {
       const entries = toEntries(resources);
       const mark = image == null ? { id: toIdDigits(id) } : { image: toImage('image', image) };
       const keyJson = toKeyJson(key);
-      const result = await runLong(loader, options, (api, progress) =>
+      const result = await runLong(loaderFor(bytes), options, (api, progress) =>
         api.embed(bytes, entries, { key: keyJson, ...mark, progress }));
       return {
         bytes: result.bytes,
@@ -82,7 +88,7 @@ export function createApi(loader) {
       const entries = toEntries(resources);
       const expected = reference == null ? undefined : toImage('reference', reference);
       const keyJson = toKeyJson(key);
-      const result = await runLong(loader, options, (api, progress) =>
+      const result = await runLong(loaderFor(bytes), options, (api, progress) =>
         api.extract(bytes, entries, { key: keyJson, reference: expected, progress }));
       return { ...result, report: JSON.parse(result.report) };
     },
@@ -91,7 +97,7 @@ export function createApi(loader) {
       const { resources } = known('request', request, ['resources']);
       const bytes = toBytes('model', model);
       const entries = toEntries(resources);
-      return loader.call((api) => JSON.parse(unwrap(api.inspect(bytes, entries)).report));
+      return loaderFor(bytes).call((api) => JSON.parse(unwrap(api.inspect(bytes, entries)).report));
     },
 
     async externalUris(model) {
@@ -152,16 +158,18 @@ export function createApi(loader) {
     },
 
     async load(request = {}) {
-      const { wasm } = known('request', request, ['wasm']);
+      const { wasm, dracoWasm } = known('request', request, ['wasm', 'dracoWasm']);
+      if (dracoWasm !== undefined) dracoLoader.useSource(dracoWasm);
       await loader.load(wasm);
     },
 
     unload() {
       loader.unload();
+      dracoLoader.unload();
     },
 
     memoryBytes() {
-      return loader.memoryBytes;
+      return dracoLoader === loader ? loader.memoryBytes : loader.memoryBytes + dracoLoader.memoryBytes;
     },
   };
 }

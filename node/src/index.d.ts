@@ -184,9 +184,12 @@ export type WasmSource = string | URL | Response | Bytes | WebAssembly.Module;
 
 /**
  * Optional: loads the module ahead of the first call, or from another place than the package's own file.
- * Does nothing once it is loaded.
+ * Does nothing once it is loaded. Models with Draco compression need a larger build of the module; it is fetched with
+ * the first of them, from dracoWasm if given.
  */
-export function load(request?: { wasm?: WasmSource | Promise<WasmSource> }): Promise<void>;
+export function load(request?: {
+  wasm?: WasmSource | Promise<WasmSource>; dracoWasm?: WasmSource | Promise<WasmSource>;
+}): Promise<void>;
 
 /** Frees the module's memory (wasm memory never shrinks otherwise); the next call loads it again. */
 export function unload(): void;

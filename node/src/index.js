@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Entry for browsers, workers and bundlers: the literal URL is what makes a bundler ship the wasm.
+// Entry for browsers, workers and bundlers: the literal URLs are what makes a bundler ship the wasm.
 import factory from '../dist/quadmark.js';
 import { createApi } from './api.js';
 import { Loader } from './load.js';
@@ -7,7 +7,9 @@ import { Loader } from './load.js';
 export { ERROR_EXIT_STATUS, QuadmarkError } from './error.js';
 
 const loader = new Loader(factory, () => new URL('../dist/quadmark.wasm', import.meta.url));
+const dracoLoader = new Loader(async (options) => (await import('../dist/quadmark_draco.js')).default(options),
+  () => new URL('../dist/quadmark_draco.wasm', import.meta.url));
 
 export const {
   embed, extract, inspect, externalUris, createKey, parseKey, decodeImage, encodeImage, version, load, unload, memoryBytes,
-} = createApi(loader);
+} = createApi(loader, dracoLoader);

@@ -8,7 +8,9 @@ import { Loader } from './load.js';
 export { ERROR_EXIT_STATUS, QuadmarkError } from './error.js';
 
 const loader = new Loader(factory, () => readFile(new URL('../dist/quadmark.wasm', import.meta.url)));
+const dracoLoader = new Loader(async (options) => (await import('../dist/quadmark_draco.js')).default(options),
+  () => readFile(new URL('../dist/quadmark_draco.wasm', import.meta.url)));
 
 export const {
   embed, extract, inspect, externalUris, createKey, parseKey, decodeImage, encodeImage, version, load, unload, memoryBytes,
-} = createApi(loader);
+} = createApi(loader, dracoLoader);

@@ -36,12 +36,18 @@ export class Loader {
   #current = null;   // the settled value of #ready
 
   /**
-   * @param factory        Emscripten's factory (options) => Promise<api>
+   * @param factory        Emscripten's factory (options) => Promise<api>; it may import its glue first
    * @param defaultSource  () => source of the wasm, called at most once per successful compilation
    */
   constructor(factory, defaultSource) {
     this.#factory = factory;
     this.#defaultSource = defaultSource;
+  }
+
+  /** Replaces the default source of what has not been compiled yet. */
+  useSource(source) {
+    Promise.resolve(source).catch(() => {});  // a failure is told when the source is used
+    this.#defaultSource = () => source;
   }
 
   /** Compiles from `source` (default: the file of the package) and instantiates, unless that has happened already. */

@@ -80,7 +80,7 @@ const startsWith = (bytes, values) => values.every((value, i) => bytes[i] === va
 async function classify({ file }) {
   const head = new Uint8Array(await file.slice(0, SNIFF_BYTES).arrayBuffer());
   const text = new TextDecoder().decode(head).replace(/^\ufeff/, '').trimStart();
-  if (text.startsWith('glTF') || /^ply\s/.test(text)) return { kind: 'model' };
+  if (text.startsWith('glTF') || text.startsWith('DRACO') || /^ply\s/.test(text)) return { kind: 'model' };
   if (startsWith(head, PNG)) return { kind: 'picture' };
   const extension = /\.([^.]+)$/.exec(file.name)?.[1].toLowerCase();
   if (text.startsWith('{') && file.size <= MAX_JSON_BYTES) {
@@ -95,7 +95,7 @@ async function classify({ file }) {
       // Broken JSON: by name.
     }
   }
-  if (['glb', 'gltf', 'ply'].includes(extension)) return { kind: 'model' };
+  if (['glb', 'gltf', 'ply', 'drc'].includes(extension)) return { kind: 'model' };
   if (extension === 'json') return { kind: 'key' };
   if (extension === 'png') return { kind: 'picture' };
   return { kind: 'other' };
@@ -144,12 +144,12 @@ export async function sortItems(items) {
  * @return {{ parts: Item[], notices: string[] }}  notices: a sentence on each useless file that did not come in a folder
  */
 export function splitStrangers(items, model) {
-  if (model && !/\.(glb|ply)$/i.test(model.path)) return { parts: items, notices: [] };
+  if (model && !/\.(glb|ply|drc)$/i.test(model.path)) return { parts: items, notices: [] };
   const mayBePart = ({ path }) => /\.bin$/i.test(path);
   return {
     parts: items.filter(mayBePart),
     notices: items.filter((item) => !mayBePart(item) && !item.path.includes('/'))
-      .map(({ path }) => `${path} was left aside: it is neither a model (GLB, glTF, PLY), nor a key file, nor a PNG picture.`),
+      .map(({ path }) => `${path} was left aside: it is neither a model (GLB, glTF, PLY, DRC), nor a key file, nor a PNG picture.`),
   };
 }
 

@@ -157,7 +157,7 @@ addEventListener('drop', (event) => {
   event.preventDefault();
   lower();
   if (carriesFiles(event)) takeDrop(event.dataTransfer);
-  else showNotices(['That was no file. Drop a model (GLB, glTF, PLY) and a key file.']);
+  else showNotices(['That was no file. Drop a model (GLB, glTF, PLY, DRC) and a key file.']);
 });
 
 // The same file chosen again must count as a change: hence the emptied value.

@@ -59,6 +59,28 @@ Result<BufferPlace> placeBuffer(const GltfBuffer& buffer, std::size_t index, con
   return place;
 }
 
+BufferBytes decodedBuffer(std::vector<std::uint8_t> bytes) {
+  BufferBytes buffer;
+  buffer.decoded = std::move(bytes);
+  buffer.bytes = buffer.decoded;
+  return buffer;
+}
+
+/// @param decodedBytes  of this view and all before it.
+Result<BufferBytes> decodeView(const BufferPlace& place, const std::vector<BufferBytes>& buffers,
+                               std::uint64_t decodedBytes, std::uint64_t limit) {
+  const MeshoptSource& source = place.meshopt;
+  const std::string name = "bufferView " + std::to_string(source.view);
+  if (decodedBytes > limit) {
+    return tooLarge(name + ": the compressed data would take more than " + std::to_string(limit) + " bytes");
+  }
+  const Bytes stream = buffers[source.buffer].bytes.subspan(static_cast<std::size_t>(source.byteOffset),
+                                                            static_cast<std::size_t>(source.byteLength));
+  Result<std::vector<std::uint8_t>> decoded = decodeMeshopt(stream, source.layout, name);
+  if (!decoded) return decoded.error();
+  return decodedBuffer(std::move(decoded).value());
+}
+
 }  // namespace
 
 Result<std::vector<BufferPlace>> placeBuffers(const GltfDocument& document, const GltfContainer& container, Bytes file,
@@ -88,6 +110,7 @@ Result<BufferBytes> openBuffer(const BufferPlace& place, std::size_t index, cons
   switch (place.source) {
     case BufferPlace::Source::absent:
     case BufferPlace::Source::meshopt:
+    case BufferPlace::Source::draco:
       return badFile(name + " has no data");
     case BufferPlace::Source::bin:
       buffer.bytes = container.bin(file);
@@ -117,35 +140,39 @@ Result<BufferBytes> openBuffer(const BufferPlace& place, std::size_t index, cons
   return buffer;
 }
 
+Result<DracoMesh> decodeDracoStream(const DracoStream& stream, const std::vector<BufferBytes>& buffers,
+                                    std::uint64_t memoryLimit) {
+  const Bytes bytes = buffers[stream.buffer].bytes.subspan(static_cast<std::size_t>(stream.byteOffset),
+                                                           static_cast<std::size_t>(stream.byteLength));
+  return decodeDraco(bytes, {DracoAttribute{stream.position, stream.componentType, 3}}, memoryLimit, stream.place);
+}
+
 Result<std::vector<BufferBytes>> openBuffers(const std::vector<BufferPlace>& places, const std::vector<bool>& wanted,
                                              const GltfContainer& container, Bytes file, const Resources& resources) {
   std::vector<bool> opening = wanted;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (wanted[i] && places[i].source == BufferPlace::Source::meshopt) opening[places[i].meshopt.buffer] = true;
+    if (!wanted[i]) continue;
+    if (places[i].source == BufferPlace::Source::meshopt) opening[places[i].meshopt.buffer] = true;
+    if (places[i].source == BufferPlace::Source::draco) opening[places[i].draco.buffer] = true;
   }
   const std::uint64_t limit = memoryLimit(file, resources);
   std::uint64_t decodedBytes = 0;
   std::vector<BufferBytes> buffers(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!opening[i] || places[i].source == BufferPlace::Source::absent) continue;
-    if (places[i].source != BufferPlace::Source::meshopt) {
-      Result<BufferBytes> buffer = openBuffer(places[i], i, container, file, resources);
-      if (!buffer) return buffer.error();
-      buffers[i] = std::move(buffer).value();
-      continue;
-    }
     // Decoded buffers follow those of the file, so what they are decoded from is open.
-    const MeshoptSource& source = places[i].meshopt;
-    const std::string place = "bufferView " + std::to_string(source.view);
-    decodedBytes += places[i].byteLength;
-    if (decodedBytes > limit)
-      return tooLarge(place + ": the compressed data would take more than " + std::to_string(limit) + " bytes");
-    const Bytes stream = buffers[source.buffer].bytes.subspan(static_cast<std::size_t>(source.byteOffset),
-                                                              static_cast<std::size_t>(source.byteLength));
-    Result<std::vector<std::uint8_t>> decoded = decodeMeshopt(stream, source.layout, place);
-    if (!decoded) return decoded.error();
-    buffers[i].decoded = std::move(decoded).value();
-    buffers[i].bytes = buffers[i].decoded;
+    Result<BufferBytes> buffer = BufferBytes{};
+    if (places[i].source == BufferPlace::Source::meshopt) {
+      decodedBytes += places[i].byteLength;
+      buffer = decodeView(places[i], buffers, decodedBytes, limit);
+    } else if (places[i].source == BufferPlace::Source::draco) {
+      Result<DracoMesh> mesh = decodeDracoStream(places[i].draco, buffers, limit);
+      buffer = mesh ? Result<BufferBytes>(decodedBuffer(std::move(mesh->values[0]))) : mesh.error();
+    } else {
+      buffer = openBuffer(places[i], i, container, file, resources);
+    }
+    if (!buffer) return buffer.error();
+    buffers[i] = std::move(buffer).value();
   }
   return buffers;
 }

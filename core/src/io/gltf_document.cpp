@@ -22,6 +22,21 @@ Status checkEntryCount(const char* what, std::uint64_t count, std::uint64_t most
   return tooLarge("glTF: more than " + number(most) + " " + what);
 }
 
+Status readDraco(JsonValue extension, GltfPrimitive& primitive, GltfDocument& document) {
+  const std::string place = primitive.place() + " " + kDracoExtension;
+  if (document.views.empty()) return badFile(place + ": the file has no bufferViews");
+  FieldReader fields(extension, place);
+  FieldReader attributes(extension.find("attributes"), place + " attributes");
+  GltfDraco draco;
+  draco.view = static_cast<std::uint32_t>(fields.required("bufferView", document.views.size() - 1));
+  draco.position = static_cast<std::uint32_t>(attributes.required("POSITION", kLargestSize));
+  if (fields.error()) return *fields.error();
+  if (attributes.error()) return *attributes.error();
+  document.views[draco.view].needed = true;
+  primitive.draco = draco;
+  return okStatus();
+}
+
 Status readPrimitive(JsonValue json, GltfPrimitive primitive, GltfDocument& document) {
   const std::uint64_t lastAccessor = document.accessors.size() - 1;  // only used when there is one
   FieldReader fields(json, primitive.place());
@@ -36,10 +51,6 @@ Status readPrimitive(JsonValue json, GltfPrimitive primitive, GltfDocument& docu
   if (!primitive.hasTriangles()) {
     document.warn(primitive.place() + ": " + primitiveModeName(primitive.mode) + " are passed through");
   }
-  primitive.draco = static_cast<bool>(json.find("extensions").find("KHR_draco_mesh_compression"));
-  if (primitive.draco && primitive.hasTriangles()) {
-    return unsupportedFile(primitive.place() + ": KHR_draco_mesh_compression is not supported by this version");
-  }
   if (document.accessors.empty()) return badFile(primitive.place() + ": the file has no accessors");
   FieldReader positionField(attributes, primitive.place());
   primitive.position = static_cast<std::uint32_t>(positionField.required("POSITION", lastAccessor));
@@ -47,7 +58,9 @@ Status readPrimitive(JsonValue json, GltfPrimitive primitive, GltfDocument& docu
     if (!primitive.hasTriangles()) return okStatus();
     return *positionField.error();
   }
-  if (primitive.hasTriangles() && json.find("indices")) {
+  if (const JsonValue draco = json.find("extensions").find(kDracoExtension); draco && primitive.hasTriangles()) {
+    if (Status status = readDraco(draco, primitive, document); !status) return status;
+  } else if (primitive.hasTriangles() && json.find("indices")) {
     primitive.indices = static_cast<std::uint32_t>(fields.required("indices", lastAccessor));
     if (fields.error()) return *fields.error();
   }
@@ -70,22 +83,11 @@ Status readMeshes(const GltfSections& sections, GltfDocument& document) {
     ++document.meshCount;
   });
   for (const GltfPrimitive& primitive : document.primitives) {
-    if (!primitive.hasTriangles()) continue;
+    if (!primitive.hasTriangles() || primitive.draco) continue;
     document.accessors[primitive.position].needed = true;
     if (primitive.indices != kNone) document.accessors[primitive.indices].needed = true;
   }
   return status;
-}
-
-std::uint32_t componentsOf(std::string_view type) {
-  constexpr struct {
-    std::string_view name;
-    std::uint32_t components;
-  } kTypes[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
-  for (const auto& entry : kTypes) {
-    if (type == entry.name) return entry.components;
-  }
-  return 0;
 }
 
 FileSpan spanOf(JsonValue value, const char* jsonText, std::size_t jsonBegin) {
@@ -129,7 +131,7 @@ Status readAccessors(const GltfSections& sections, GltfDocument& document) {
     accessor.count = fields.required("count", kLargestSize);
     accessor.byteOffset = fields.optional("byteOffset", 0, kLargestSize);
     const std::string type = json.find("type").asString();
-    accessor.components = componentsOf(type);
+    accessor.components = componentsOfType(type);
     if (accessor.components == 0) fields.fail("has the unknown type " + quoted(type));
     if (accessor.componentType < 5120 || accessor.componentType > 5126 || accessor.componentType == 5124) {
       fields.fail("has the unknown componentType " + number(accessor.componentType));
@@ -291,9 +293,20 @@ Status checkElements(const GltfDocument& document, std::uint32_t index) {
                  " elements exceeds bufferView " + number(accessor.view) + " (" + number(view.byteLength) + " bytes)");
 }
 
+/// Compressed positions are checked when they are decoded; their accessor only says what they become.
+Status checkDraco(const GltfDocument& document, const GltfPrimitive& primitive) {
+  const GltfAccessor& position = document.accessors[primitive.position];
+  if (!document.views[primitive.draco->view].compression.empty()) {
+    return unsupportedFile(primitive.place() + " " + kDracoExtension + ": its bufferView is compressed again");
+  }
+  if (position.components == 3 && position.componentType != kGltfUint32) return okStatus();
+  return unsupportedFile(primitive.place() + " POSITION (accessor " + number(primitive.position) +
+                         "): is not a VEC3 of floats or of 8- or 16-bit integers");
+}
+
 /// One of the two arrays of a sparse accessor: tightly packed elements in a view.
-Status checkPacked(const GltfDocument& document, const std::string& place, std::uint32_t viewIndex, std::uint64_t offset,
-                   std::uint64_t count, std::uint64_t elementBytes) {
+Status checkPacked(const GltfDocument& document, const std::string& place, std::uint32_t viewIndex,
+                   std::uint64_t offset, std::uint64_t count, std::uint64_t elementBytes) {
   const GltfView& view = document.views[viewIndex];
   if (view.byteStride != 0 && view.byteStride != elementBytes) {
     return badFile(place + ": bufferView " + number(viewIndex) + " has a byteStride");
@@ -325,6 +338,7 @@ Status checkSparse(const GltfDocument& document, std::uint32_t index) {
 
 Status checkTriangles(const GltfDocument& document, const GltfPrimitive& primitive) {
   const std::string what = primitive.place() + " POSITION";
+  if (primitive.draco) return checkDraco(document, primitive);
   const GltfAccessor& position = document.accessors[primitive.position];
   const std::string place = " (accessor " + number(primitive.position) + ")";
   if (position.components != 3 || position.componentType == kGltfUint32) {
@@ -357,6 +371,17 @@ Status checkTriangles(const GltfDocument& document, const GltfPrimitive& primiti
 
 std::uint32_t GltfAccessor::elementBytes() const {
   return components * componentBytes(componentType);
+}
+
+std::uint32_t componentsOfType(std::string_view type) {
+  constexpr struct {
+    std::string_view name;
+    std::uint32_t components;
+  } kTypes[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+  for (const auto& entry : kTypes) {
+    if (type == entry.name) return entry.components;
+  }
+  return 0;
 }
 
 void GltfDocument::warn(std::string text) {

@@ -15,6 +15,7 @@
 namespace quadmark::io {
 
 inline constexpr std::uint32_t kNone = 0xffffffff;
+inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 
 /// A range of the file's bytes.
 struct FileSpan {
@@ -34,7 +35,7 @@ struct GltfBuffer {
   std::uint64_t byteLength = 0;
   bool hasUri = false;  ///< without: the GLB's BIN chunk if it is buffer 0, else no data
   FileSpan uri;         ///< as spelled between the quotes
-  /// Set for a buffer that is none of the file's but stands for a decoded view. Such buffers follow the file's own.
+  /// Set for a buffer that is none of the file's but stands for a decoded view. Decoded buffers follow the file's own.
   std::optional<MeshoptSource> meshopt;
 };
 
@@ -67,11 +68,18 @@ struct GltfAccessor {
   [[nodiscard]] std::uint32_t elementBytes() const;
 };
 
+/// What KHR_draco_mesh_compression says about a primitive.
+struct GltfDraco {
+  std::uint32_t view = kNone;
+  std::uint32_t position = 0;  ///< unique id of the positions in the stream
+};
+
 struct GltfPrimitive {
   std::uint32_t mesh = 0, index = 0;  ///< "mesh 2 primitive 0"
   std::uint32_t position = kNone, indices = kNone;
   std::uint32_t mode = 4;
-  bool draco = false;
+  /// If set for triangles, position and indices declare what the stream holds; decodeDracoPrimitives() replaces them.
+  std::optional<GltfDraco> draco;
 
   [[nodiscard]] bool hasTriangles() const { return mode >= 4 && mode <= 6; }
   [[nodiscard]] std::string place() const;
@@ -97,6 +105,9 @@ struct GltfDocument {
   /// Adds a warning, up to a limit that a hostile file cannot exceed.
   void warn(std::string text);
 };
+
+/// Components of an accessor's type such as "VEC3"; 0 for unknown ones.
+std::uint32_t componentsOfType(std::string_view type);
 
 /// A mode's name for messages.
 const char* primitiveModeName(std::uint32_t mode);

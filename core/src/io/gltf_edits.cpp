@@ -45,6 +45,7 @@ GltfEdits::GltfEdits(Bytes file, const GltfContainer& container, JsonValue root)
   const JsonValue buffers = root.find("buffers");
   bufferCount_ = buffers.elementCount();
   viewCount_ = root.find("bufferViews").elementCount();
+  accessorCount_ = root.find("accessors").elementCount();
   bool first = true;
   appendsToBin_ = container.isGlb && (container.hasBin || bufferCount_ == 0);
   buffers.forEachElement([&](JsonValue buffer) {
@@ -79,9 +80,15 @@ std::uint32_t GltfEdits::appendView(Bytes bytes, std::uint32_t byteStride, std::
   return static_cast<std::uint32_t>(viewCount_ + views_.size() - 1);
 }
 
+std::uint32_t GltfEdits::addAccessor(std::string json) {
+  accessors_.push_back(std::move(json));
+  return static_cast<std::uint32_t>(accessorCount_ + accessors_.size() - 1);
+}
+
 /// Tells the JSON text about the new bytes and views.
 void GltfEdits::declareAppended() {
   if (!views_.empty()) addToArray(json_, root_, "bufferViews", views_);
+  if (!accessors_.empty()) addToArray(json_, root_, "accessors", accessors_);
   if (appended_.empty()) return;
   const std::uint64_t before = appendsToBin_ ? aligned(container_->binEnd - container_->binBegin) : 0;
   const std::string length = std::to_string(before + appended_.size());

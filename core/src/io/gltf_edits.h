@@ -44,6 +44,9 @@ class GltfEdits {
   /// @param target      34962 vertices, 34963 indices, 0: none is stated.
   std::uint32_t appendView(Bytes bytes, std::uint32_t byteStride, std::uint32_t target);
 
+  /// Adds an accessor, spelled as a JSON object, and returns its index.
+  std::uint32_t addAccessor(std::string json);
+
   /// The file with all edits; to be called once. The self-check compares everything outside the JSON text.
   /// Fails with `internal` (edits overlap or break the text) or tooLarge (a GLB beyond 4 GiB).
   Result<AssembledGltf> assemble();
@@ -59,8 +62,8 @@ class GltfEdits {
   JsonValue root_;
   JsonEdits json_;
   std::vector<std::uint8_t> appended_;
-  std::vector<std::string> views_;  // new ones, spelled
-  std::uint64_t bufferCount_ = 0, viewCount_ = 0;
+  std::vector<std::string> views_, accessors_;  // new ones, spelled
+  std::uint64_t bufferCount_ = 0, viewCount_ = 0, accessorCount_ = 0;
   bool appendsToBin_ = false;
 };
 

@@ -12,6 +12,9 @@ namespace quadmark::io {
 class GltfModel final : public Model {
  public:
   Status read(Bytes file, const Resources& resources);
+  [[nodiscard]] Status checkMarkable() const override {
+    return positions_.conflict.empty() ? okStatus() : Status(unsupportedFile(positions_.conflict));
+  }
   [[nodiscard]] Result<PatchedFile> patch(std::span<const std::uint8_t> file, const Resources& resources,
                                           std::span<const double> positions) const override;
   [[nodiscard]] Result<OrderFreedom> orderFreedom(std::span<const std::uint8_t> file,

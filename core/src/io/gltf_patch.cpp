@@ -60,9 +60,8 @@ Status GltfModel::checkPatch(std::span<const double> positions, const std::vecto
       return notTheFile("a buffer is shorter");
     }
     const std::optional<CoordinateGrid> grid = array.type.grid();
-    Status status = checkRepresentable(positions, array.firstVertex, array.count, [&](double x) {
-      return grid ? nearestOnGrid(*grid, x) == x : fitsFloat32(x);
-    });
+    Status status = checkRepresentable(positions, array.firstVertex, array.count,
+                                       [&](double x) { return grid ? nearestOnGrid(*grid, x) == x : fitsFloat32(x); });
     if (!status) return status;
     stored = std::max(stored, array.firstVertex + array.count);
   }
@@ -95,8 +94,9 @@ void GltfModel::includeElements(const PositionWindow& window, std::uint64_t begi
   });
 }
 
-/// Edits for an accessor's min and max: of the codes, with sparse values in their places. A bound whose true value stays
-/// keeps its spelling, even a wrong one; but of data that was compressed, bounds that nobody could check become true.
+/// Edits for an accessor's min and max: of the codes, with sparse values in their places. A bound whose true value
+/// stays keeps its spelling, even a wrong one; but of data that was compressed, bounds that nobody could check become
+/// true.
 Status GltfModel::editBounds(Bytes file, const Bounds& bounds, std::span<const double> positions,
                              const std::vector<BufferBytes>& buffers, const std::vector<bool>& decompressed,
                              JsonEdits& edits) const {
@@ -120,10 +120,11 @@ Status GltfModel::editBounds(Bytes file, const Bounds& bounds, std::span<const d
     after.include({0, 0, 0});
   }
 
-  const PositionWindow& typed = window.isStored() || window.values == kNone ? window : positions_.windows[window.values];
+  const PositionWindow& typed =
+      window.isStored() || window.values == kNone ? window : positions_.windows[window.values];
   const bool isFloat = !typed.isStored() || positions_.arrays[typed.array].type.component == kGltfFloat;
   const bool mayStay = !window.isStored() || !decompressed[positions_.arrays[window.array].buffer];
-  const auto edit = [&](FileSpan span, const double (&old)[3], const double (&now)[3]) {
+  const auto edit = [&](FileSpan span, const double(&old)[3], const double(&now)[3]) {
     if (span.empty()) return okStatus();
     if (span.end > file.size()) return Status(notTheFile("the JSON text differs"));
     const Result<JsonValue> array = parseJson(textAt(file, span));
@@ -147,7 +148,7 @@ Status GltfModel::editBounds(Bytes file, const Bounds& bounds, std::span<const d
 Result<PatchedFile> GltfModel::patch(std::span<const std::uint8_t> file, const Resources& resources,
                                      std::span<const double> positions) const {
   if (file.size() != fileSize_) return notTheFile("another size");
-  if (!positions_.conflict.empty()) return unsupportedFile(positions_.conflict);
+  if (Status status = checkMarkable(); !status) return status.error();
   if (Status status = checkPositions(positions, positions_.vertexCount); !status) return status.error();
 
   // 1. Bounds that change, and buffers outside the file or inside its text.
@@ -172,6 +173,14 @@ Result<PatchedFile> GltfModel::patch(std::span<const std::uint8_t> file, const R
     if (buffers_[i].source == BufferPlace::Source::meshopt) {
       decompression.replaceView(buffers_[i].meshopt.view, after);
       decompressed[i] = true;
+      continue;
+    }
+    if (buffers_[i].source == BufferPlace::Source::draco) {
+      const DracoStream& stream = buffers_[i].draco;
+      const Bytes bytes = before[stream.buffer].bytes.subspan(static_cast<std::size_t>(stream.byteOffset),
+                                                              static_cast<std::size_t>(stream.byteLength));
+      const Status status = decompression.replaceStream(stream, bytes, after, memoryLimit(file, resources));
+      if (!status) return status.error();
       continue;
     }
     if (buffers_[i].source == BufferPlace::Source::resource) {

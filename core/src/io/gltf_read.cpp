@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "face_collector.h"
+#include "gltf_draco.h"
 #include "gltf_model.h"
 
 namespace quadmark {
@@ -288,7 +289,7 @@ Status GltfModel::read(Bytes file, const Resources& resources) {
   container_ = std::move(container).value();
   Result<GltfDocument> read = readGltfDocument(container_.json(file), container_.jsonBegin);
   if (!read) return read.error();
-  const GltfDocument document = std::move(read).value();
+  GltfDocument document = std::move(read).value();
   fileSize_ = file.size();
   info_.format = container_.isGlb ? FileFormat::glb : FileFormat::gltf;
   info_.variant = "glTF " + document.version;
@@ -304,6 +305,12 @@ Status GltfModel::read(Bytes file, const Resources& resources) {
   Result<std::vector<BufferPlace>> places = placeBuffers(document, container_, file, resources);
   if (!places) return places.error();
   buffers_ = std::move(places).value();
+  Result<std::vector<BufferBytes>> opened =
+      openBuffers(buffers_, std::vector<bool>(buffers_.size(), true), container_, file, resources);
+  if (!opened) return opened.error();
+  std::vector<BufferBytes> buffers = std::move(opened).value();
+  const std::uint64_t limit = memoryLimit(file, resources);
+  if (Status status = decodeDracoPrimitives(document, buffers_, buffers, limit); !status) return status;
   Result<PositionArrays> arrays = collectPositionArrays(document, findSameBuffers(buffers_));
   if (!arrays) return arrays.error();
   positions_ = std::move(arrays).value();
@@ -311,10 +318,6 @@ Status GltfModel::read(Bytes file, const Resources& resources) {
   if (!positions_.conflict.empty())
     info_.warnings.push_back(positions_.conflict + "; marking this file will be refused");
 
-  Result<std::vector<BufferBytes>> opened =
-      openBuffers(buffers_, std::vector<bool>(buffers_.size(), true), container_, file, resources);
-  if (!opened) return opened.error();
-  const std::vector<BufferBytes> buffers = std::move(opened).value();
   std::uint64_t totalBytes = file.size();
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     const bool inFile =
@@ -324,7 +327,6 @@ Status GltfModel::read(Bytes file, const Resources& resources) {
   std::uint64_t windowed = 0;
   for (const PositionWindow& window : positions_.windows) windowed += window.isStored() ? window.count : 1;
   if (windowed > totalBytes) return tooLarge("glTF: accessors reuse the same positions too often");
-  const std::uint64_t limit = memoryLimit(file, resources);
   if (positions_.vertexCount > limit / (3 * sizeof(double))) {
     return tooLarge("glTF: " + std::to_string(positions_.vertexCount) +
                     " vertices are too many for a file of this size");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Index codec 1 (triangles by the edges and vertices that were used last) and index sequence codec 1 (differences).
 #include "meshopt.h"
+#include "varint_reader.h"
 
 namespace quadmark::io {
 namespace {
@@ -18,36 +19,6 @@ class Recent {
   static_assert((Size & (Size - 1)) == 0);  // so that next_ may wrap
   std::uint32_t values_[Size] = {};
   std::uint32_t next_ = 0;
-};
-
-/// Bytes and variable-length integers in order; once something is missing everything reads as 0.
-class Reader {
- public:
-  explicit Reader(Bytes bytes) : bytes_(bytes) {}
-
-  std::uint8_t byte() {
-    if (at_ == bytes_.size()) failed_ = true;
-    return failed_ ? std::uint8_t{0} : bytes_[at_++];
-  }
-
-  /// Seven bits per byte, the lowest first, at most five bytes.
-  std::uint32_t integer() {
-    std::uint32_t value = 0;
-    for (unsigned shift = 0; shift < 35; shift += 7) {
-      const std::uint32_t part = byte();
-      value |= (part & 127) << shift;
-      if (part < 128) break;
-    }
-    return value;
-  }
-
-  [[nodiscard]] bool isAtEnd() const { return !failed_ && at_ == bytes_.size(); }
-  [[nodiscard]] bool failed() const { return failed_; }
-
- private:
-  Bytes bytes_;
-  std::size_t at_ = 0;
-  bool failed_ = false;
 };
 
 std::uint32_t fromZigzag(std::uint32_t value) {
@@ -100,7 +71,7 @@ class TriangleDecoder {
     write(a, b, c);
   }
 
-  [[nodiscard]] const Reader& data() const { return data_; }
+  [[nodiscard]] const VarintReader& data() const { return data_; }
 
  private:
   std::uint32_t explicitVertex() { return last_ += fromZigzag(data_.integer()); }
@@ -128,7 +99,7 @@ class TriangleDecoder {
     out_.write(c);
   }
 
-  Reader data_;
+  VarintReader data_;
   Bytes pairs_;
   IndexWriter out_;
   Recent<32> edges_;  // two vertices each
@@ -154,7 +125,7 @@ bool decodeMeshoptIndices(Bytes stream, const MeshoptLayout& layout, std::uint8_
   constexpr std::size_t kTail = 4;
   if (layout.byteStride != 2 && layout.byteStride != 4) return false;
   if (stream.size() < 1 + kTail || stream[0] != 0xd1) return false;
-  Reader reader(stream.subspan(1, stream.size() - 1 - kTail));
+  VarintReader reader(stream.subspan(1, stream.size() - 1 - kTail));
   IndexWriter writer(out, layout.byteStride);
   std::uint32_t last[2] = {};  // two interleaved runs, told apart by the lowest bit
   for (std::uint64_t i = 0; i < layout.count && !reader.failed(); ++i) {

@@ -7,6 +7,7 @@
 #include "data_uri.h"
 #include "gltf_container.h"
 #include "json_text.h"
+#include "quadmark/io/drc.h"
 #include "quadmark/io/gltf.h"
 #include "quadmark/io/ply.h"
 
@@ -20,6 +21,8 @@ const char* fileFormatName(FileFormat format) {
       return "gltf";
     case FileFormat::glb:
       return "glb";
+    case FileFormat::drc:
+      return "drc";
   }
   return "";
 }
@@ -28,7 +31,8 @@ Result<std::unique_ptr<Model>> readModel(std::span<const std::uint8_t> file, con
   if (file.empty()) return io::badFile("the file is empty");
   if (isPly(file)) return readPly(file);
   if (isGltf(file)) return readGltf(file, resources);
-  return io::badFile("the file is not a PLY, glTF or GLB: it begins with " +
+  if (isDrc(file)) return readDrc(file);
+  return io::badFile("the file is not a PLY, glTF, GLB or DRC: it begins with " +
                      io::quoted(io::asText(file.first(file.size() < 8 ? file.size() : 8))));
 }
 

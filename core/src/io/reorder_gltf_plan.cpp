@@ -108,7 +108,13 @@ class Planner {
   }
 
   void claimAll() {
-    for (const PositionWindow& window : positions_.windows) claim(window.accessor, window.array, Role::attribute);
+    for (const PositionWindow& window : positions_.windows) {
+      if (window.accessor < claims_.size()) {
+        claim(window.accessor, window.array, Role::attribute);
+      } else {
+        object(window.array, "its data is compressed");
+      }
+    }
     std::uint32_t meshIndex = 0;
     sections_.meshes.forEachElement([&](JsonValue mesh) {
       std::uint32_t primitiveIndex = 0;
@@ -370,7 +376,8 @@ Result<GltfReorderPlan> planGltfReorder(const PositionArrays& positions, const G
   if (!root) return root.error();
   const Result<GltfDocument> document = readGltfDocument(json, container.jsonBegin);
   if (!document) return document.error();
-  if (document->accessors.size() != positions.windowOf.size()) {
+  // Accessors of decoded data come behind those of the file.
+  if (document->accessors.size() > positions.windowOf.size()) {
     return Error{ErrorCode::badOption, "reorder: these are not the bytes that were read"};
   }
   const GltfSections sections = findSections(*root, json, container.jsonBegin);

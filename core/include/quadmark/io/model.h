@@ -14,9 +14,9 @@
 
 namespace quadmark {
 
-enum class FileFormat : std::uint8_t { ply, gltf, glb };
+enum class FileFormat : std::uint8_t { ply, gltf, glb, drc };
 
-/// "ply", "gltf" or "glb".
+/// "ply", "gltf", "glb" or "drc".
 [[nodiscard]] const char* fileFormatName(FileFormat format);
 
 /// External files by the URI exactly as the glTF spells it (percent-decoded forms are tried too). The core never
@@ -36,7 +36,7 @@ struct PatchedFile {
 /// Facts about the file for reports, each a plain sentence fragment or number.
 struct ModelInfo {
   FileFormat format = FileFormat::ply;
-  std::string variant;                      ///< "ascii 1.0", "binary_little_endian 1.0", "glTF 2.0"
+  std::string variant;                      ///< "ascii 1.0", "binary_little_endian 1.0", "glTF 2.0", "Draco 2.2"
   std::uint32_t meshes = 0, primitives = 0, nodes = 0;
   std::vector<std::string> extensionsUsed;  ///< glTF only, file order
   std::vector<std::string> warnings;        ///< e.g. "mesh 2 primitive 0: POINTS are passed through"
@@ -65,10 +65,13 @@ class Model {
   [[nodiscard]] Mesh& mesh() { return mesh_; }
   [[nodiscard]] const ModelInfo& info() const { return info_; }
 
-  /// For each vertex of mesh() the glTF mesh index it is drawn by (the lowest when shared); empty for PLY.
+  /// Whether patch() can write into this file at all; fails with unsupportedFile and the reason.
+  [[nodiscard]] virtual Status checkMarkable() const { return okStatus(); }
+
+  /// For each vertex of mesh() the glTF mesh index it is drawn by (the lowest when shared); empty for other formats.
   [[nodiscard]] const std::vector<std::uint32_t>& vertexMesh() const { return vertexMesh_; }
 
-  /// Names of the glTF nodes that instantiate each glTF mesh: (node index, name, mesh index); empty for PLY.
+  /// Names of the glTF nodes that instantiate each glTF mesh: (node index, name, mesh index); empty for other formats.
   struct NodeRef { std::uint32_t node; std::string name; std::uint32_t mesh; };
   [[nodiscard]] const std::vector<NodeRef>& nodes() const { return nodes_; }
 
