@@ -75,6 +75,7 @@ class Extractor {
       if (!more) break;
     }
     if (!options_.bitsOnly) judge();
+    compareReadings();
     return std::move(out_);
   }
 
@@ -199,7 +200,22 @@ class Extractor {
   void keep(const Candidate& c, float purity, float weight) {
     if (!options_.keepReadings) return;
     out_.readings.push_back(
-        {{c.vertices[0], c.vertices[1], c.vertices[2], c.vertices[3]}, c.reading, purity, weight});
+        {{c.vertices[0], c.vertices[1], c.vertices[2], c.vertices[3]}, c.reading, purity, weight, false});
+  }
+
+  // Which readings voted for what was read in the end.
+  void compareReadings() {
+    const std::uint32_t width = static_cast<std::uint32_t>(codec_.bitsPerPiece());
+    for (CellReading& cell : out_.readings) {
+      const Reading& r = cell.reading;
+      if (cell.weight <= 0) continue;
+      const std::uint32_t piece = r.piece ^ pad_(r.index, r.prefix1, r.prefix2);
+      cell.agrees = true;
+      for (std::uint32_t bit = 0; bit < width; ++bit) {
+        const double sum = sums_[std::size_t{r.index} * width + bit];
+        cell.agrees = cell.agrees && ((piece >> (width - 1 - bit) & 1) != 0) == (sum > 0);
+      }
+    }
   }
 
   // Index and label in one word: both digit strings are below 10^9, so r1's digits and r2's prefix fit.

@@ -7,7 +7,7 @@
 
 #include "quadmark/adjacency.h"
 #include "quadmark/embed.h"
-#include "quadmark/extract.h"
+#include "quadmark/extract_parts.h"
 #include "quadmark/metrics.h"
 #include "quadmark/prf.h"
 #include "report.h"
@@ -20,41 +20,34 @@ bool tell(const Progress& progress, const char* stage, double done) { return !pr
 Error cancelled() { return {ErrorCode::aborted, "cancelled by the caller"}; }
 
 // Cells per glTF node, by the mesh that the vertex of each cell belongs to. Nodes that share a mesh share its cells.
-template <class Cells, class VertexOf>
+// @param evidenceOf  what a cell says, >= 0.
+template <class Cells, class VertexOf, class EvidenceOf>
 std::vector<NodeCells> cellsPerNode(const Model& model, const WeldedMesh& welded, const Cells& cells,
-                                    const VertexOf& vertexOf) {
+                                    const VertexOf& vertexOf, const EvidenceOf& evidenceOf) {
   std::vector<NodeCells> out;
   if (model.nodes().empty()) return out;
   std::vector<std::uint32_t> meshOfWelded(welded.vertexCount(), 0);
   std::uint32_t meshes = 0;
   for (std::size_t v = 0; v < welded.weldedOf.size(); ++v) {
+    if (welded.weldedOf[v] == kNoVertex) continue;
     meshes = std::max(meshes, model.vertexMesh()[v] + 1);
-    if (welded.weldedOf[v] != kNoVertex) meshOfWelded[welded.weldedOf[v]] = model.vertexMesh()[v];
+    meshOfWelded[welded.weldedOf[v]] = model.vertexMesh()[v];
   }
   std::vector<std::uint32_t> count(meshes, 0);
-  for (const auto& cell : cells) ++count[meshOfWelded[vertexOf(cell)]];
-  for (const Model::NodeRef& node : model.nodes())
-    out.push_back({node.node, node.name, node.mesh, node.mesh < meshes ? count[node.mesh] : 0});
-  return out;
-}
-
-std::uint32_t componentCount(const WeldedMesh& welded) {
-  std::vector<std::uint8_t> seen(welded.vertexCount(), 0);
-  std::vector<std::uint32_t> stack;
-  std::uint32_t components = 0;
-  for (std::uint32_t start = 0; start < welded.vertexCount(); ++start) {
-    if (seen[start] != 0) continue;
-    ++components;
-    seen[start] = 1;
-    stack.assign(1, start);
-    while (!stack.empty()) {
-      const std::uint32_t v = stack.back();
-      stack.pop_back();
-      for (std::uint32_t w : welded.neighboursOf(v))
-        if (seen[w] == 0) seen[w] = 1, stack.push_back(w);
-    }
+  std::vector<double> evidence(meshes, 0);
+  double total = 0;
+  for (const auto& cell : cells) {
+    const std::uint32_t mesh = meshOfWelded[vertexOf(cell)];
+    ++count[mesh];
+    evidence[mesh] += evidenceOf(cell);
+    total += evidenceOf(cell);
   }
-  return components;
+  for (const Model::NodeRef& node : model.nodes()) {
+    const bool drawn = node.mesh < meshes;
+    out.push_back({node.node, node.name, node.mesh, drawn ? count[node.mesh] : 0,
+                   drawn && total > 0 ? evidence[node.mesh] / total : 0});
+  }
+  return out;
 }
 
 Result<std::vector<std::uint8_t>> payloadBits(const EmbedRequest& request) {
@@ -195,7 +188,8 @@ Result<ExtractResponse> extract(std::span<const std::uint8_t> file, const Resour
   if (request.reference) options.reference = request.reference->bits;
   options.keepReadings = !(*model)->nodes().empty();
   options.progress = [&](int passes) { return tell(request.progress, "search", 0.3 + 0.1 * std::min(passes, 6)); };
-  const Extraction e = extractMesh(welded, welded.positions, roundingOf(precision, welded), request.key, options);
+  const PartsExtraction parts = extractParts(welded, precision, request.key, options);
+  const Extraction& e = parts.extraction;
   if (e.cancelled || !tell(request.progress, "report", 0.95)) return cancelled();
 
   ExtractResponse response;
@@ -216,8 +210,9 @@ Result<ExtractResponse> extract(std::span<const std::uint8_t> file, const Resour
   for (const CellReading& r : e.readings)
     if (r.weight > 0) voting.push_back(r);
   response.reportJson = formatReport(ExtractReport{
-      request.key, e, response.id, ber,
-      cellsPerNode(**model, welded, voting, [](const CellReading& r) { return r.vertices[0]; }),
+      request.key, e, partName(parts.part), parts.partVertices, response.id, ber,
+      cellsPerNode(**model, welded, voting, [](const CellReading& r) { return r.vertices[0]; },
+                   [](const CellReading& r) { return r.agrees ? double{r.weight} : 0.0; }),
       (*model)->info().warnings});
   tell(request.progress, "report", 1);
   return response;
@@ -231,9 +226,12 @@ Result<std::string> inspect(std::span<const std::uint8_t> file, const Resources&
   const double diagonal = boundingDiagonal(mesh);
   SearchResult found;
   if (diagonal > 0) found = searchCells(mesh, welded, PaperParams{}, diagonal, roundingOf(mesh.precision, welded));
-  return formatReport(InspectReport{(*model)->info(), mesh, welded.vertexCount(), componentCount(welded), diagonal,
+  std::uint32_t componentCount = 0;
+  static_cast<void>(components(welded, componentCount));
+  return formatReport(InspectReport{(*model)->info(), mesh, welded.vertexCount(), componentCount, diagonal,
                                     static_cast<std::uint32_t>(found.cells.size()), found.naturalCells,
-                                    cellsPerNode(**model, welded, found.cells, [](const Quad& q) { return q.a; })});
+                                    cellsPerNode(**model, welded, found.cells, [](const Quad& q) { return q.a; },
+                                                 [](const Quad&) { return 1.0; })});
 }
 
 Result<Key> makeKey(const KeyRequest& request) {

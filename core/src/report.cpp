@@ -23,6 +23,7 @@ void writeNodes(JsonWriter& json, const std::vector<NodeCells>& nodes) {
     json.member("name", n.name);
     json.member("mesh", n.mesh);
     json.member("cells", n.cells);
+    json.member("share", n.share);
     json.endObject();
   }
   json.endArray();
@@ -110,6 +111,8 @@ std::string formatReport(const ExtractReport& r) {
   json.member("erasedCells", e.erasedCells);
   json.member("piecesRead", e.piecesRead);
   json.member("passes", e.passes);
+  json.member("readFrom", r.readFrom);
+  json.member("readFromVertices", r.readFromVertices);
   writeNodes(json, r.perNode);
   json.member("warnings", r.warnings);
   json.endObject();

@@ -17,6 +17,7 @@ struct NodeCells {
   std::uint32_t node = 0;
   std::string name;
   std::uint32_t mesh = 0, cells = 0;
+  double share = 0;  ///< of the weight of all cells that agree with what was read, 0..1
 };
 
 struct EmbedReport {
@@ -31,6 +32,8 @@ struct EmbedReport {
 struct ExtractReport {
   const Key& key;
   const Extraction& extraction;
+  const char* readFrom;           ///< partName()
+  std::uint32_t readFromVertices;
   const std::optional<std::uint64_t>& id;
   std::optional<double> ber;
   std::vector<NodeCells> perNode;

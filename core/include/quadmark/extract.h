@@ -23,6 +23,7 @@ struct CellReading {
   Reading reading;
   float purity = 0;           ///< estimated share of true cells among readings of its kind, 0..1
   float weight = 0;           ///< weight of its votes, 0 for erasures
+  bool agrees = false;        ///< it voted, and for the bits that were read in the end
 };
 
 struct Extraction {
