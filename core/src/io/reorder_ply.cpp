@@ -152,6 +152,13 @@ Result<Renumbered> renumber(Bytes file, const PlyHeader& header, std::size_t ver
   return result;
 }
 
+Result<Renumbered> renumber(Bytes file, const PlyHeader& header, std::size_t vertexElement,
+                            const Renumbering& newNumber) {
+  return header.encoding == PlyEncoding::ascii
+             ? renumber<TextPlyCursor, TextOutput>(file, header, vertexElement, newNumber)
+             : renumber<BinaryPlyCursor, BinaryOutput>(file, header, vertexElement, newNumber);
+}
+
 /// The rows of the vertex element as byte ranges. A text row runs from its first to its last word: the blanks and line
 /// breaks between rows stay where they are, so that rows cannot run into each other, even without a last line break.
 class Rows {
@@ -244,6 +251,11 @@ Result<OrderFreedom> PlyModel::orderFreedom(std::span<const std::uint8_t> file, 
       }
     }
   }
+  // Reading the mesh stops after the faces: references behind them may be broken.
+  if (!renumber(file, header_, vertexElement_, Renumbering({}))) {
+    freedom.warnings.push_back("a vertex index behind the faces cannot be read; the order of the vertices is kept");
+    return freedom;
+  }
   freedom.ranges.push_back(VertexRange{0, static_cast<std::uint32_t>(vertexElement().count)});
   return freedom;
 }
@@ -254,16 +266,17 @@ Result<PatchedFile> PlyModel::reorder(std::span<const std::uint8_t> file, const 
   if (!freedom) return freedom.error();
   const Result<std::vector<std::uint32_t>> newOf = invertOrder(order, vertexElement().count, freedom->ranges);
   if (!newOf) return newOf.error();
+  PatchedFile reordered;
+  if (freedom->ranges.empty()) {
+    reordered.bytes.assign(file.begin(), file.end());
+    return reordered;
+  }
   const Renumbering newNumber(*newOf);
-  const bool ascii = header_.encoding == PlyEncoding::ascii;
-  const Result<Renumbered> renumbered =
-      ascii ? renumber<TextPlyCursor, TextOutput>(file, header_, vertexElement_, newNumber)
-            : renumber<BinaryPlyCursor, BinaryOutput>(file, header_, vertexElement_, newNumber);
+  const Result<Renumbered> renumbered = renumber(file, header_, vertexElement_, newNumber);
   if (!renumbered) return renumbered.error();
   const Result<Rows> rows = Rows::find(renumbered->bytes, header_, vertexElement(), renumbered->vertexBegin);
   if (!rows) return rows.error();
 
-  PatchedFile reordered;
   reordered.bytes = movedRows(renumbered->bytes, *rows, order);
   if (Status status = checkReordered(mesh_, order, *newOf, reordered.bytes, {}); !status) return status.error();
   reordered.bytesChanged = countChangedBytes(file, resources, reordered);
