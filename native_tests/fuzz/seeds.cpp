@@ -2,6 +2,7 @@
 #include "fuzz/seeds.h"
 
 #include "fixtures.h"
+#include "io_gltf_matrix.h"
 
 namespace quadmark::test {
 namespace {
@@ -40,6 +41,26 @@ FileBytes manyFeatures() {
   return makeGlb(json, buffer.bytes);
 }
 
+/// Integer and sparse positions of every kind.
+std::vector<FileBytes> quantizedAndSparse() {
+  Mesh square;
+  square.positions = {0, 0, 0, 1, 0, 0, 1, 1, 0.5, 0, 1, 0};
+  square.faceVertices = {0, 1, 2, 0, 2, 3};
+  std::vector<FileBytes> files;
+  for (const char* component : {"float", "char", "ushort"}) {
+    for (const SparseUse sparse : {SparseUse::none, SparseUse::overBase, SparseUse::alone}) {
+      MatrixSpec spec;
+      spec.component = component;
+      spec.normalized = component[0] == 'c';
+      spec.sparse = sparse;
+      spec.mode = 4 + static_cast<int>(files.size() % 3);
+      const Mesh codes = asCodes(square, spec);
+      files.push_back(MatrixWriter(spec, codes, codes).write().file);
+    }
+  }
+  return files;
+}
+
 }  // namespace
 
 Resources seedResources() {
@@ -75,6 +96,7 @@ std::vector<FileBytes> gltfSeeds() {
   std::vector<FileBytes> files = {gridGltf().glb(), bytesOf(gridGltf("\"uri\":\"a.bin\",").json),
                                   bytesOf(gridGltf("\"uri\":\"data:;base64," + base64(gridGltf().bin) + "\",").json),
                                   manyFeatures()};
+  for (FileBytes& file : quantizedAndSparse()) files.push_back(std::move(file));
   for (const Mesh& mesh : smallMeshes()) {
     if (mesh.faceOffsets.empty()) files.push_back(lab::writeGlb(mesh));
   }
