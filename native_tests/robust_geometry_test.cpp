@@ -12,9 +12,11 @@
 #include "robust/carriers.h"
 #include "robust/constellation.h"
 #include "robust/diamonds.h"
+#include "robust/far_names.h"
 #include "robust/labels.h"
 #include "robust/lattice.h"
 #include "robust/surface.h"
+#include "robust/survival.h"
 
 namespace quadmark::robust {
 namespace {
@@ -89,6 +91,39 @@ TEST(RobustLabels, DependOnConnectivityAlone) {
     distinct.insert(lb.label[v]);
   }
   EXPECT_GT(distinct.size(), a.vertexCount() / 2) << "irregular connectivity tells most vertices apart";
+}
+
+TEST(RobustLabels, NameRegularGridsFromAfar) {
+  const Mesh mesh = lab::bumpyGrid(40, 30, 1);
+  lab::VertexOrigin origin;
+  const Mesh shuffled = lab::reorder(mesh, 3, &origin);
+  const Surface a = makeSurface(mesh), b = makeSurface(shuffled);
+  const std::vector<std::uint64_t> names = farNames(a), again = farNames(b);
+  ASSERT_EQ(names.size(), a.vertexCount());
+  for (std::uint32_t v = 0; v < shuffled.vertexCount(); ++v)
+    EXPECT_EQ(again[b.welded.weldedOf[v]], names[a.welded.weldedOf[origin[v]]]);
+  const Carriers carriers = selectCarriers(a, Prf(keysOf(1).select));
+  EXPECT_GT(carriers.count(), a.vertexCount() / 12);
+  std::set<std::uint64_t> labels(carriers.label.begin(), carriers.label.end());
+  EXPECT_GT(labels.size(), carriers.count() / 4u) << "a grid repeats a name only where it is symmetric";
+  EXPECT_TRUE(farNames(makeSurface(lab::sculpture(2000))).empty()) << "irregular meshes need none";
+}
+
+TEST(RobustSurvival, PrefersWhatSimplifiersKeep) {
+  const Mesh mesh = lab::sculpture(6000);
+  const Surface surface = makeSurface(mesh);
+  const Survival survival(surface, surface.welded.positions);
+  lab::VertexOrigin origin;
+  lab::simplifyMeshopt(mesh, 0.6, &origin);
+  std::set<std::uint32_t> kept;
+  for (const std::uint32_t v : origin) kept.insert(surface.welded.weldedOf[v]);
+  double survivors[2] = {0, 0}, all[2] = {0, 0};
+  for (const Diamond& q : collectDiamonds(surface)) {
+    const int eager = survival.reluctance(q) == 1;
+    all[eager] += 1;
+    survivors[eager] += kept.count(q.a) + kept.count(q.b) + kept.count(q.c) + kept.count(q.d) == 4;
+  }
+  EXPECT_GT(survivors[1] / all[1], 1.5 * survivors[0] / all[0]);
 }
 
 TEST(RobustCarriers, AreTheSameIndependentSetInEveryOrder) {

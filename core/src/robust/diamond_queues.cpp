@@ -9,37 +9,38 @@ namespace quadmark::robust {
 namespace {
 
 // Sliding along a diagonal moves texture but hardly the surface, so it counts less than closing the gap.
-constexpr double kSlideWeight = 0.1;
+constexpr float kSlideWeight = 0.1f;
 
 // Bins of a cost: the leading bits of a float, which grow with it.
 constexpr std::uint32_t kCostBins = 512;
 std::uint32_t costBin(float cost) {
   std::uint32_t bits;
   std::memcpy(&bits, &cost, sizeof bits);
-  const std::uint32_t lowest = 0x36800000u >> 19;  // 2^-18; 16 bins per octave
+  const std::uint32_t lowest = 0x2f800000u >> 19;  // 2^-32; 16 bins per octave
   bits >>= 19;
   return bits < lowest ? 0 : std::min(bits - lowest, kCostBins - 1);
 }
 
-// Per pair of a candidate and a good cell within reach: visit(good cell, cost, far).
+struct GoodCell {
+  int edgeCell, spanCell;
+  float edgeCentre, spanCentre;
+};
+
+// Per pair of a candidate and a good cell within reach: visit(good cell, cost, far). Costs are squares: only their
+// order counts, and a pair is looked at some hundred times per vertex.
 template <class Visit>
-void forEachPair(const Candidate& c, const DeltaClass& shape, const std::vector<std::uint32_t>& cellNumber,
-                 const Visit& visit) {
-  const int side = static_cast<int>(shape.side), reach = DiamondQueues::kFar;
+void forEachPair(const Candidate& c, const DeltaClass& shape, const std::vector<GoodCell>& good, const Visit& visit) {
   const int edgeCell = static_cast<int>(fineCell(c.edgeRatio, shape));
   const int spanCell = static_cast<int>(fineCell(c.spanRatio, shape));
-  const double shorter = std::min(c.edgeLength, c.spanLength), gap2 = static_cast<double>(c.gap) * c.gap;
-  for (int e = std::max(0, edgeCell - reach); e <= std::min(side - 1, edgeCell + reach); ++e) {
-    const double alongEdge = (fineCentre(e, shape) - c.edgeRatio) * c.edgeLength;
-    const bool farEdge = std::abs(e - edgeCell) > DiamondQueues::kNear;
-    const std::uint32_t* row = cellNumber.data() + static_cast<std::size_t>(e) * shape.side;
-    for (int s = std::max(0, spanCell - reach); s <= std::min(side - 1, spanCell + reach); ++s) {
-      if (row[s] == Constellation::kNone) continue;
-      const double alongSpan = (fineCentre(s, shape) - c.spanRatio) * c.spanLength;
-      const double slide = alongEdge * alongEdge + alongSpan * alongSpan;
-      const auto cost = static_cast<float>(c.reluctance * std::sqrt(kSlideWeight * slide + gap2) / shorter);
-      visit(row[s], cost, farEdge || std::abs(s - spanCell) > DiamondQueues::kNear);
-    }
+  const float shorter = std::min(c.edgeLength, c.spanLength), scale = c.reluctance / shorter;
+  const float edgeWeight = kSlideWeight * c.edgeLength * c.edgeLength * scale * scale;
+  const float spanWeight = kSlideWeight * c.spanLength * c.spanLength * scale * scale;
+  const float gapCost = c.gap * c.gap * scale * scale;
+  for (std::uint32_t i = 0; i < good.size(); ++i) {
+    const int away = std::max(std::abs(good[i].edgeCell - edgeCell), std::abs(good[i].spanCell - spanCell));
+    if (away > DiamondQueues::kFar) continue;
+    const float edge = good[i].edgeCentre - c.edgeRatio, span = good[i].spanCentre - c.spanRatio;
+    visit(i, edgeWeight * edge * edge + spanWeight * span * span + gapCost, away > DiamondQueues::kNear);
   }
 }
 
@@ -48,14 +49,18 @@ void forEachPair(const Candidate& c, const DeltaClass& shape, const std::vector<
 DiamondQueues::DiamondQueues(const std::vector<Candidate>& candidates, const DeltaClass& shape,
                              const std::vector<std::uint32_t>& goodCells, std::uint32_t wanted) {
   const std::size_t good = goodCells.size();
-  std::vector<std::uint32_t> cellNumber(shape.side * shape.side, Constellation::kNone);
-  for (std::size_t i = 0; i < good; ++i) cellNumber[goodCells[i]] = static_cast<std::uint32_t>(i);
+  std::vector<GoodCell> cells;
+  for (const std::uint32_t cell : goodCells) {
+    const std::uint32_t edge = cell / shape.side, span = cell % shape.side;
+    cells.push_back({static_cast<int>(edge), static_cast<int>(span), static_cast<float>(fineCentre(edge, shape)),
+                     static_cast<float>(fineCentre(span, shape))});
+  }
 
   // 1. How many pairs of each cost there are, to find each queue's dearest cost.
   std::vector<std::uint32_t> histogram(good * 2 * kCostBins, 0);
   const auto row = [&](std::uint32_t cell, bool far) { return (std::size_t{cell} * 2 + far) * kCostBins; };
   for (const Candidate& c : candidates)
-    forEachPair(c, shape, cellNumber,
+    forEachPair(c, shape, cells,
                 [&](std::uint32_t cell, float cost, bool far) { ++histogram[row(cell, far) + costBin(cost)]; });
   std::vector<std::uint32_t> lastBin(good * 2, 0), cursor(good * 2, 0);
   ranges_.resize(good);
@@ -75,7 +80,7 @@ DiamondQueues::DiamondQueues(const std::vector<Candidate>& candidates, const Del
   // 2. The pairs themselves, sorted per queue.
   entries_.resize(total);
   for (std::uint32_t i = 0; i < candidates.size(); ++i)
-    forEachPair(candidates[i], shape, cellNumber, [&](std::uint32_t cell, float cost, bool far) {
+    forEachPair(candidates[i], shape, cells, [&](std::uint32_t cell, float cost, bool far) {
       const std::size_t queue = 2 * std::size_t{cell} + far;
       if (costBin(cost) < lastBin[queue]) entries_[cursor[queue]++] = {cost, i};
     });

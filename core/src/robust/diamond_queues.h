@@ -20,7 +20,7 @@ struct Candidate {
 
 /// One entry of a good cell's queue.
 struct QueueEntry {
-  float cost;               ///< displacement relative to the shorter diagonal
+  float cost;               ///< square of the displacement relative to the shorter diagonal, times reluctance squared
   std::uint32_t candidate;  ///< index into the candidates given
 };
 

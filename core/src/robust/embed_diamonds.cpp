@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 
 #include "diamond_queues.h"
+#include "survival.h"
 
 namespace quadmark::robust {
 namespace {
@@ -44,14 +44,9 @@ std::vector<std::uint8_t> sharpVertices(const std::vector<double>& positions, co
 
 class Writer {
  public:
-  Writer(const Surface& surface, const std::vector<Diamond>& diamonds, const DiamondLimits& limits,
-         std::vector<std::uint8_t>& occupied, std::vector<double>& positions)
-      : surface_(surface),
-        diamonds_(diamonds),
-        limits_(limits),
-        occupied_(occupied),
-        positions_(positions),
-        facesOf_(surface) {}
+  Writer(const Surface& surface, const DiamondLimits& limits, std::vector<std::uint8_t>& occupied,
+         std::vector<double>& positions)
+      : surface_(surface), limits_(limits), occupied_(occupied), positions_(positions), facesOf_(surface) {}
 
   [[nodiscard]] bool free(const Diamond& q) const {
     return occupied_[q.a] == 0 && occupied_[q.b] == 0 && occupied_[q.c] == 0 && occupied_[q.d] == 0;
@@ -92,70 +87,10 @@ class Writer {
 
  private:
   const Surface& surface_;
-  const std::vector<Diamond>& diamonds_;
   const DiamondLimits& limits_;
   std::vector<std::uint8_t>& occupied_;
   std::vector<double>& positions_;
   FacesOf facesOf_;
-};
-
-// How far a vertex's faces are, root mean square by area, from the neighbour that it could collapse to most cheaply:
-// what edge-collapse simplifiers (Garland and Heckbert 1997) sort by. 0 where there is no closed fan.
-std::vector<float> collapseCosts(const Surface& surface, const std::vector<double>& positions) {
-  std::vector<float> out(surface.vertexCount(), 0.0f);
-  for (std::uint32_t v = 0; v < surface.vertexCount(); ++v) {
-    const auto ring = surface.ring(v);
-    if (ring.empty()) continue;
-    const Vec3 p = at(positions, v);
-    Vec3 normal[kMaxRing];
-    double area[kMaxRing], total = 0;
-    const std::size_t n = ring.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      normal[k] = cross(at(positions, ring[k]) - p, at(positions, ring[(k + 1) % n]) - p);
-      area[k] = length(normal[k]);
-      total += area[k];
-    }
-    double best = 1e300;
-    for (std::size_t u = 0; u < n; ++u) {
-      const Vec3 d = at(positions, ring[u]) - p;
-      double sum = 0;
-      for (std::size_t k = 0; k < n; ++k) {
-        const double h = dot(normal[k], d);
-        if (area[k] > 0) sum += h * h / area[k];
-      }
-      best = std::min(best, sum);
-    }
-    if (total > 0) out[v] = static_cast<float>(std::sqrt(best / total));
-  }
-  return out;
-}
-
-// Cells on vertices that simplifiers remove first are of little use: of the cheapest quarter, half and seven tenths of
-// all vertices by collapse cost, each doubles the reluctance to use them. Gain, coded bit error rate of layer B at
-// equal distortion: fandisk optimised .27 -> .19, at .5 and 14 bits .29 -> .20; bunny at .5 .27 -> .17; cloth at .5 and
-// 14 bits .30 -> .28. (Tried: one threshold at the error of gltf-transform's optimize; half the gain.)
-class Survival {
- public:
-  Survival(const Surface& surface, const std::vector<double>& positions) : cost_(collapseCosts(surface, positions)) {
-    std::vector<float> sorted = cost_;
-    std::sort(sorted.begin(), sorted.end());
-    for (std::size_t i = 0; i < std::size(kShares); ++i)
-      if (!sorted.empty())
-        limit_[i] = sorted[static_cast<std::size_t>(kShares[i] * static_cast<double>(sorted.size()))];
-  }
-
-  [[nodiscard]] float reluctance(const Diamond& q) const {
-    const float least = std::min({cost_[q.a], cost_[q.b], cost_[q.c], cost_[q.d]});
-    float out = 1;
-    for (const float limit : limit_)
-      if (least < limit) out *= 2;
-    return out;
-  }
-
- private:
-  static constexpr double kShares[] = {0.25, 0.5, 0.7};
-  std::vector<float> cost_;
-  float limit_[std::size(kShares)] = {};
 };
 
 std::vector<Candidate> findCandidates(const Surface& surface, const std::vector<double>& positions,
@@ -187,7 +122,7 @@ DiamondEmbedding embedDiamonds(const Surface& surface, const std::vector<Diamond
                                std::vector<double>& positions) {
   DiamondEmbedding out;
   const DeltaClass& shape = constellation.shape();
-  Writer writer(surface, diamonds, limits, occupied, positions);
+  Writer writer(surface, limits, occupied, positions);
   std::vector<Candidate> candidates = findCandidates(surface, positions, diamonds, shape, limits, writer);
 
   // 1. The good fine cells: those whose meaning is what the payload says.
@@ -203,7 +138,7 @@ DiamondEmbedding embedDiamonds(const Surface& surface, const std::vector<Diamond
   const double perCell = static_cast<double>(surface.vertexCount()) / static_cast<double>(goodCells.size());
   const auto farShare =
       static_cast<std::uint32_t>(std::clamp(limits.farQuota * perCell, limits.leastFar, limits.mostFar));
-  const auto wanted = static_cast<std::uint32_t>(std::max(32.0, 0.75 * perCell));
+  const auto wanted = static_cast<std::uint32_t>(std::max(32.0, perCell));
 
   // 2. Generations: queues of the cheapest pairs, served round-robin; then again with the diamonds still free.
   std::vector<std::uint32_t> copies(goodCells.size(), 0);

@@ -30,7 +30,7 @@ Preset presetOf(Strength strength) {
   };
   static constexpr Row kRows[] = {
       {0.5, 12, 5, 0.012, 35, 4, 0.03, 6, 2e-3, 1e-5},     // invisible
-      {0.7, 25, 12, 0.04, 35, 12, 0.075, 10, 6e-3, 1e-5},  // standard
+      {0.7, 25, 10, 0.035, 35, 10, 0.075, 10, 6e-3, 1e-5},  // standard
       {0.9, 35, 20, 0.1, 60, 20, 0.135, 100, 1.5e-2, 0},   // strong
   };
   const Row& row = kRows[static_cast<int>(strength)];

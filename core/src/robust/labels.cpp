@@ -7,6 +7,7 @@
 // near-regular meshes with a third of the carriers; depth 6 gains 3 % and loses twice as many at borders.
 #include "labels.h"
 
+#include "far_names.h"
 #include "quadmark/random.h"
 
 namespace quadmark::robust {
@@ -16,16 +17,11 @@ std::uint64_t combine(std::uint64_t a, std::uint64_t b) {
   return Random::mix((a ^ Random::mix(b + 0x9e3779b97f4a7c15u)) + 0x9e3779b97f4a7c15u);
 }
 
-// Six triangles or four quads.
-bool isRegular(std::uint32_t cornerCount) {
-  return cornerCount == 6 || cornerCount == 4 * (1 + 32);
-}
-
 // Per vertex, the irregular vertices seen from its ring's rings, with repetition.
 std::vector<std::uint16_t> irregularAround(const Surface& surface) {
   std::vector<std::uint16_t> near(surface.vertexCount(), 0), out(surface.vertexCount(), 0);
   for (std::uint32_t v = 0; v < surface.vertexCount(); ++v)
-    for (const std::uint32_t n : surface.ring(v)) near[v] += !isRegular(surface.cornerCounts[n]);
+    for (const std::uint32_t n : surface.ring(v)) near[v] += !isRegular(surface, n);
   for (std::uint32_t v = 0; v < surface.vertexCount(); ++v)
     for (const std::uint32_t n : surface.ring(v)) out[v] += near[n];
   return out;
@@ -81,6 +77,7 @@ Labels refineLabels(const Surface& surface) {
   std::vector<std::uint64_t> current(surface.cornerCounts.begin(), surface.cornerCounts.end()), next(count);
   const std::vector<std::uint16_t> irregular = irregularAround(surface);
   out.label.assign(count, 0);
+  std::vector<std::uint8_t> named(count, 0);  // by the last level
   std::uint32_t order[kMaxRing];
   for (int level = 1; level <= kLabelDepth; ++level) {
     for (std::uint32_t v = 0; v < count; ++v) {
@@ -90,6 +87,7 @@ Labels refineLabels(const Surface& surface) {
       for (std::size_t k = 0; complete && k < ring.size() && level > 1; ++k) complete = current[ring[k]] != 0;
       if (!complete) continue;
       const bool unique = canonicalRing(ring, current, order, next[v]);
+      if (level == kLabelDepth) named[v] = unique;
       const bool enough = level == kLabelDepth || (unique && irregular[v] >= kEnoughIrregular[level]);
       if (out.depth[v] != 0 || !enough) continue;
       out.depth[v] = static_cast<std::uint8_t>(level);
@@ -98,6 +96,17 @@ Labels refineLabels(const Surface& surface) {
     out.names[level - 1] = std::move(current);
     current = std::move(next);
     next.assign(count, 0);
+  }
+  // What no neighbourhood names is named from afar, or not at all.
+  out.names[kLabelDepth] = farNames(surface);
+  if (out.names[kLabelDepth].empty()) return out;
+  for (std::uint32_t v = 0; v < count; ++v) {
+    const bool local = out.label[v] != 0 && (out.depth[v] < kLabelDepth || named[v] != 0);
+    if (local || surface.ring(v).empty()) continue;
+    std::uint64_t hash = 0;
+    const bool unique = canonicalRing(surface.ring(v), out.names[kLabelDepth], order, hash);
+    out.depth[v] = kLabelDepth + 1;
+    out.label[v] = unique ? combine(hash, kLabelDepth + 1) : 0;
   }
   return out;
 }

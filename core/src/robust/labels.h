@@ -24,12 +24,12 @@ bool canonicalRing(std::span<const std::uint32_t> ring, std::span<const std::uin
 inline constexpr int kLabelDepth = 4;
 
 /// Names of all vertices, level by level, and each vertex's label: its name at the least level (2 or more) at which its
-/// ring has a unique order and enough irregular vertices lie around. Simplification cuts names that reach far, so each
-/// vertex is named by as small a neighbourhood as can tell it apart.
+/// ring has a unique order and enough irregular vertices lie around; where there is none, its name from afar.
+/// Simplification cuts names that reach far, so each vertex is named by as small a neighbourhood as can tell it apart.
 struct Labels {
   std::vector<std::uint64_t> label;  ///< per welded vertex; 0 = none, its neighbourhood has a border too near
   std::vector<std::uint8_t> depth;   ///< level of the label
-  std::array<std::vector<std::uint64_t>, kLabelDepth> names;  ///< of levels 0 .. kLabelDepth - 1
+  std::array<std::vector<std::uint64_t>, kLabelDepth + 1> names;  ///< of levels 0 .. kLabelDepth - 1; farNames()
 
   /// The canonical order of a labelled vertex's ring; false where it is not unique.
   [[nodiscard]] bool orderRing(const Surface& surface, std::uint32_t vertex, std::uint32_t* order) const;

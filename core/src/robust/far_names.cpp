@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "far_names.h"
+
+#include <array>
+
+#include "quadmark/random.h"
+
+namespace quadmark::robust {
+namespace {
+
+constexpr std::size_t kNearest = 3;
+
+struct Arrival {
+  std::uint32_t source = kNoVertex;
+  std::uint32_t distance = 0;
+};
+
+// Breadth-first search from all sources at once; a vertex passes on the first kNearest sources that reach it. Which of
+// several equally near ones those are depends on the order of vertices, how far they are does not.
+std::vector<std::array<Arrival, kNearest>> nearestSources(const Surface& surface,
+                                                          const std::vector<std::uint32_t>& sources) {
+  std::vector<std::array<Arrival, kNearest>> reached(surface.vertexCount());
+  struct Visit {
+    std::uint32_t vertex, source;
+  };
+  std::vector<Visit> front, next;
+  for (const std::uint32_t source : sources) front.push_back({source, source});
+  for (std::uint32_t distance = 0; !front.empty(); ++distance) {
+    next.clear();
+    for (const Visit& visit : front) {
+      auto& arrivals = reached[visit.vertex];
+      std::size_t slot = 0;
+      while (slot < kNearest && arrivals[slot].source != kNoVertex && arrivals[slot].source != visit.source) ++slot;
+      if (slot == kNearest || arrivals[slot].source == visit.source) continue;
+      arrivals[slot] = {visit.source, distance};
+      for (const std::uint32_t n : surface.welded.neighboursOf(visit.vertex)) next.push_back({n, visit.source});
+    }
+    front.swap(next);
+  }
+  return reached;
+}
+
+}  // namespace
+
+bool isRegular(const Surface& surface, std::uint32_t vertex) {
+  constexpr std::uint32_t kQuad = 1 + 32;
+  const std::uint32_t corners = surface.cornerCounts[vertex];
+  return surface.ring(vertex).empty() ? corners == 3 || corners == 2 * kQuad : corners == 6 || corners == 4 * kQuad;
+}
+
+std::vector<std::uint64_t> farNames(const Surface& surface) {
+  const std::uint32_t count = surface.vertexCount();
+  std::vector<std::uint32_t> irregular;
+  for (std::uint32_t v = 0; v < count; ++v)
+    if (!isRegular(surface, v)) irregular.push_back(v);
+  if (10 * std::uint64_t{irregular.size()} > count) return {};
+  const auto reached = nearestSources(surface, irregular);
+  std::vector<std::uint64_t> names(count);
+  for (std::uint32_t v = 0; v < count; ++v) {
+    std::uint64_t name = surface.cornerCounts[v];
+    for (const Arrival& arrival : reached[v])
+      name = Random::mix(name * 0x9e3779b97f4a7c15u + (arrival.source == kNoVertex ? 0 : arrival.distance + 1));
+    names[v] = name;
+  }
+  return names;
+}
+
+}  // namespace quadmark::robust

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "survival.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace quadmark::robust {
+namespace {
+
+// How far a vertex's faces are, root mean square by area, from the neighbour that it could collapse to most cheaply:
+// what edge-collapse simplifiers (Garland and Heckbert 1997) sort by. 0 where there is no closed fan.
+std::vector<float> collapseCosts(const Surface& surface, const std::vector<double>& positions) {
+  std::vector<float> out(surface.vertexCount(), 0.0f);
+  for (std::uint32_t v = 0; v < surface.vertexCount(); ++v) {
+    const auto ring = surface.ring(v);
+    if (ring.empty()) continue;
+    const Vec3 p = at(positions, v);
+    Vec3 normal[kMaxRing];
+    double area[kMaxRing], total = 0;
+    const std::size_t n = ring.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      normal[k] = cross(at(positions, ring[k]) - p, at(positions, ring[(k + 1) % n]) - p);
+      area[k] = length(normal[k]);
+      total += area[k];
+    }
+    double best = 1e300;
+    for (std::size_t u = 0; u < n; ++u) {
+      const Vec3 d = at(positions, ring[u]) - p;
+      double sum = 0;
+      for (std::size_t k = 0; k < n; ++k) {
+        const double h = dot(normal[k], d);
+        if (area[k] > 0) sum += h * h / area[k];
+      }
+      best = std::min(best, sum);
+    }
+    if (total > 0) out[v] = static_cast<float>(std::sqrt(best / total));
+  }
+  return out;
+}
+
+}  // namespace
+
+Survival::Survival(const Surface& surface, const std::vector<double>& positions)
+    : cost_(collapseCosts(surface, positions)) {
+  std::vector<float> order = cost_;
+  for (std::size_t i = 0; i < std::size(kShares) && !order.empty(); ++i) {
+    const auto place = order.begin() + static_cast<std::ptrdiff_t>(kShares[i] * static_cast<double>(order.size()));
+    std::nth_element(order.begin(), place, order.end());
+    limits_[i] = *place;
+  }
+}
+
+float Survival::reluctance(const Diamond& diamond) const {
+  const float least = std::min({cost_[diamond.a], cost_[diamond.b], cost_[diamond.c], cost_[diamond.d]});
+  float out = 1;
+  for (const float limit : limits_)
+    if (least < limit) out *= 2;
+  return out;
+}
+
+}  // namespace quadmark::robust
