@@ -4,4 +4,6 @@ import { testRoundTrips } from './support/round_trip.mjs';
 
 await testRoundTrips([
   { line: 'gltf-pipeline', survives: true },
+  { line: 'gltf-pipeline -d' },
+  { line: 'gltf-pipeline -d --draco.quantizePositionBits 16' },
 ], ['Duck.glb']);

@@ -8,4 +8,8 @@ await testRoundTrips([
   { line: 'gltf-transform simplify', survives: true },  // by its defaults, which remove hardly anything here
   { line: 'gltf-transform join', survives: true },
   { line: 'gltf-transform optimize --compress false', survives: true },
+  { line: 'gltf-transform quantize' },
+  { line: 'gltf-transform draco' },
+  { line: 'gltf-transform meshopt' },
+  { line: 'gltf-transform optimize' },
 ], ['CesiumMan.glb']);

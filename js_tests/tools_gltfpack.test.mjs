@@ -7,4 +7,10 @@ await testRoundTrips([
   { line: 'gltfpack -c -noq', survives: true },
   { line: 'gltfpack -cz -noq', survives: true },
   { line: 'gltfpack -vpf' },
+  { line: 'gltfpack' },
+  { line: 'gltfpack -vp 16' },
+  { line: 'gltfpack -vpn' },
+  { line: 'gltfpack -c' },
+  { line: 'gltfpack -cc' },
+  { line: 'gltfpack -cz' },
 ], ['moltenDagger.glb', 'CesiumMan.glb']);

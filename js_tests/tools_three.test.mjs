@@ -19,7 +19,7 @@ test('GLTFExporter', { skip: noChromium }, (t) =>
 
 test('a marked scene looks as it did, also one that a tool wrote', { skip: noChromium }, async (t) => {
   const key = await fixedKey(8);
-  for (const line of [null, 'gltfpack -noq']) {
+  for (const line of [null, 'gltfpack', 'gltfpack -cc', 'gltfpack -cz', 'gltf-transform optimize', 'gltf-transform draco', 'gltf-pipeline -d']) {
     const model = line ? await runTool(line, scene) : scene;
     const { bytes } = await embed(model, { key, image: logo(8) });
     await assertLooksTheSame(t, three, line ?? 'the scene', { model }, { model: bytes });
