@@ -19,11 +19,9 @@ struct Target {
 };
 
 const std::vector<Target>& targets() {
-  static const std::vector<Target> all = {{"ply", exerciseModel, plySeeds()},
-                                          {"gltf", exerciseModel, gltfSeeds()},
-                                          {"key", exerciseKey, keySeeds()},
-                                          {"png", exercisePng, pngSeeds()},
-                                          {"mesh", exerciseMesh, meshSeeds()}};
+  static const std::vector<Target> all = {{"ply", exerciseModel, plySeeds()}, {"gltf", exerciseModel, gltfSeeds()},
+                                          {"drc", exerciseModel, drcSeeds()}, {"key", exerciseKey, keySeeds()},
+                                          {"png", exercisePng, pngSeeds()},   {"mesh", exerciseMesh, meshSeeds()}};
   return all;
 }
 

@@ -5,6 +5,7 @@
 #include "io/gltf_container.h"
 #include "io_allocations.h"
 #include "io_fixtures.h"
+#include "io_streams.h"
 #include "models.h"
 #include "quadmark/io/drc.h"
 #include "quadmark/random.h"
@@ -13,25 +14,6 @@ namespace quadmark::test {
 namespace {
 
 constexpr std::uint64_t kLimit = std::uint64_t{64} << 20;
-
-/// The grid as the encoder of the npm package draco3dgltf 1.5.7 writes it, without quantization. The first has
-/// metadata, and texture coordinates i / 32 with the unique id 1.
-const FileBytes& sequentialGrid() {
-  static const FileBytes bytes = fromHex(
-      "445241434f0202010000800002016e0407000000046e616d6504677269640008090100010400040301020402050403040604070604050804"
-      "0807010200090300000309020001000000000000000000000000003e0000803f00000000000000bf00000040000000000000803e00000000"
-      "0000803f0000403f0000883f0000803f00000000000000400000803f000080be0000000000000040000000000000803f000000400000003f"
-      "0000004000000040000080bf000000000000003d0000803d0000c03d0000003e0000203e0000403e0000603e0000803e0000903e0000a03e"
-      "0000b03e0000c03e0000d03e0000e03e0000f03e0000003f0000083f");
-  return bytes;
-}
-const FileBytes& edgebreakerGrid() {
-  static const FileBytes bytes = fromHex(
-      "445241434f02020101000000090800080000036fdb16ff011101ff0000010009030000000000883f0000803f00000000000000000000803f"
-      "0000403f00000000000000000000003e0000803f00000000000000bf00000040000000000000803e000000400000803f000080be00000040"
-      "00000040000080bf0000803f000000400000003f000000000000004000000000");
-  return bytes;
-}
 
 /// Its triangles as sets of corners, whatever the numbers of the points.
 std::vector<std::vector<double>> trianglesOf(const Mesh& mesh) {

@@ -5,6 +5,7 @@
 #include "io/meshopt.h"
 #include "io_allocations.h"
 #include "io_fixtures.h"
+#include "io_streams.h"
 #include "quadmark/random.h"
 
 namespace quadmark::test {
@@ -14,59 +15,6 @@ using io::decodeMeshopt;
 using io::MeshoptFilter;
 using io::MeshoptLayout;
 using io::MeshoptMode;
-
-/// The grid's data as the encoder of the npm package meshoptimizer 1.3.0 compresses it.
-struct Golden {
-  const char* name;
-  const char* mode;
-  const char* filter;
-  MeshoptLayout layout;
-  FileBytes stream;
-};
-
-const std::vector<Golden>& golden() {
-  static const std::vector<Golden> all = {
-      {"vertex codec 0",
-       "ATTRIBUTES",
-       "NONE",
-       {MeshoptMode::attributes, MeshoptFilter::none, 9, 12},
-       fromHex("a00000013cf3c000ffffeff0ffff013bef80007e7f7e7f7e000001030c0000ffff01030800007e0000010ffcc000ff7f7ffffff"
-               "f013e"
-               "ffc000fdfe7d83847eff000000000000000000000000000000000000000000000000000000000000003e")},
-      {"vertex codec 1",
-       "ATTRIBUTES",
-       "NONE",
-       {MeshoptMode::attributes, MeshoptFilter::none, 9, 12},
-       fromHex("a1da6ae9007800ff10f0ff007f017f7f007f7f010048007f01012828800000040607fdfafafc020000000000000000000000000"
-               "0000000"
-               "000000003e010122")},
-      {"exponential filter",
-       "ATTRIBUTES",
-       "EXPONENTIAL",
-       {MeshoptMode::attributes, MeshoptFilter::exponential, 9, 12},
-       fromHex("a000000133ff0000807f88077f800128618000000001030000008001020800000000013fffc000ffff40bf7f8080ff013612800"
-               "00400"
-               "00000000000000000000000000000000000000000000e9000000e9000040e7")},
-      {"triangles",
-       "TRIANGLES",
-       "NONE",
-       {MeshoptMode::triangles, MeshoptFilter::none, 24, 2},
-       fromHex("e1fe0d300f5e1e4e010f0804007687566778a9866589689801690000")},
-      {"indices",
-       "INDICES",
-       "NONE",
-       {MeshoptMode::indices, MeshoptFilter::none, 24, 2},
-       fromHex("d100040c0e1002060408060c02020408060c0206040c0e100200000000")},
-  };
-  return all;
-}
-
-const Golden& goldenOf(std::string_view name) {
-  for (const Golden& entry : golden()) {
-    if (entry.name == name) return entry;
-  }
-  return golden()[0];
-}
 
 /// The triangles as the mode TRIANGLES gives them back: some begin with another corner, which the mode permits.
 const std::vector<std::vector<int>>& turnedTriangles() {
@@ -161,42 +109,11 @@ std::string goldenName(const ::testing::TestParamInfo<std::tuple<const char*, co
 /// The grid with compressed views: extension, vertex stream, index stream.
 class CompressedGrid : public ::testing::TestWithParam<std::tuple<const char*, const char*, const char*>> {
  protected:
-  static std::string viewJson(const Golden& entry, std::size_t plainOffset, std::size_t offset) {
-    std::string json = R"({"buffer":1,"byteOffset":PLAIN,"byteLength":LENGTH,"target":TARGET, "extensions" :{"NAME":{
-      "buffer":0,"byteOffset":OFFSET,"byteLength":STREAM,"byteStride":STRIDE,"count":COUNT,"mode":"MODE"FILTER}}})";
-    const auto put = [&](const char* what, std::size_t value) { json = replaced(json, what, std::to_string(value)); };
-    put("PLAIN", plainOffset);
-    put("LENGTH", entry.layout.count * entry.layout.byteStride);
-    put("TARGET", entry.layout.mode == MeshoptMode::attributes ? 34962 : 34963);
-    put("OFFSET", offset);
-    put("STREAM", entry.stream.size());
-    put("STRIDE", entry.layout.byteStride);
-    put("COUNT", entry.layout.count);
-    json = replaced(json, "MODE", entry.mode);
-    const bool states = std::string_view(entry.filter) != "NONE" || entry.layout.mode != MeshoptMode::attributes;
-    return replaced(json, "FILTER", states ? ",\"filter\":\"" + std::string(entry.filter) + "\"" : "");
-  }
-
   void SetUp() override {
     const auto [extension, vertexStream, indexStream] = GetParam();
-    const Golden& vertices = goldenOf(vertexStream);
-    const Golden& indices = goldenOf(indexStream);
-    bin_ = vertices.stream;
-    while (bin_.size() % 4 != 0) bin_.push_back(0);
-    const std::size_t indexOffset = bin_.size();
-    bin_.insert(bin_.end(), indices.stream.begin(), indices.stream.end());
-    while (bin_.size() % 4 != 0) bin_.push_back(0);
-    json_ =
-        R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_unlit","NAME"],"extensionsRequired": ["NAME"],
- "buffers":[{"byteLength":BIN},{"byteLength":156,"extensions":{"NAME":{"fallback":true}}}],
- "bufferViews":[VERTICES,
-  INDICES],
- "accessors":[{"bufferView":0,"componentType":5126,"count":9,"type":"VEC3","min":[0,0,-1],"max":[2,2,0.76]},
-  {"bufferView":1,"componentType":5123,"count":24,"type":"SCALAR"}],
- "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"extras":{"none":null}})";
-    json_ = replaced(replaced(json_, "BIN", std::to_string(bin_.size())), "VERTICES", viewJson(vertices, 0, 0));
-    json_ = replaced(json_, "INDICES]", viewJson(indices, 108, indexOffset) + "]");
-    json_ = replaced(json_, "NAME", extension);
+    GridGltf grid = meshoptGrid(extension, vertexStream, indexStream);
+    json_ = std::move(grid.json);
+    bin_ = std::move(grid.bin);
     extension_ = extension;
   }
 

@@ -23,15 +23,16 @@ done
 # Runs by default, in all 10 million; the short ones take about ten seconds each.
 default_runs() {
   case $1 in
-    gltf) [ $short = yes ] && echo 6000 || echo 4500000 ;;
-    ply) [ $short = yes ] && echo 6000 || echo 3500000 ;;
+    gltf) [ $short = yes ] && echo 6000 || echo 4000000 ;;
+    ply) [ $short = yes ] && echo 6000 || echo 3000000 ;;
+    drc) [ $short = yes ] && echo 6000 || echo 1000000 ;;
     key) [ $short = yes ] && echo 50000 || echo 1000000 ;;
     png) [ $short = yes ] && echo 10000 || echo 990000 ;;
     mesh) [ $short = yes ] && echo 300 || echo 10000 ;;
     *) echo "fuzz: no target $1" >&2; return 1 ;;
   esac
 }
-[ ${#targets[@]} -gt 0 ] || targets=(gltf ply key png mesh)
+[ ${#targets[@]} -gt 0 ] || targets=(gltf ply drc key png mesh)
 
 cmake --preset fuzz >build/fuzz.log
 cmake --build --preset fuzz --parallel "$(nproc)" >>build/fuzz.log 2>&1 || { tail -n 40 build/fuzz.log; exit 1; }

@@ -91,6 +91,8 @@ Problem reorder(const Model& model, Bytes file, const Resources& resources) {
     std::reverse(order.begin() + range.first, order.begin() + range.first + range.count);
   }
   const Result<PatchedFile> reordered = model.reorder(file, resources, order);
+  const bool fixed = freedom->ranges.empty();
+  if (!reordered.ok() && fixed && reordered.error().code == ErrorCode::unsupportedFile) return "";
   if (!reordered.ok()) return "free to be reordered, but refused: " + reordered.error().message;
   return "";
 }

@@ -3,6 +3,7 @@
 
 #include "fixtures.h"
 #include "io_gltf_matrix.h"
+#include "io_streams.h"
 
 namespace quadmark::test {
 namespace {
@@ -97,10 +98,19 @@ std::vector<FileBytes> gltfSeeds() {
                                   bytesOf(gridGltf("\"uri\":\"data:;base64," + base64(gridGltf().bin) + "\",").json),
                                   manyFeatures()};
   for (FileBytes& file : quantizedAndSparse()) files.push_back(std::move(file));
+  for (const char* vertices : {"vertex codec 0", "vertex codec 1", "exponential filter"}) {
+    for (const char* indices : {"triangles", "indices"}) {
+      files.push_back(meshoptGrid("EXT_meshopt_compression", vertices, indices).glb());
+    }
+  }
   for (const Mesh& mesh : smallMeshes()) {
     if (mesh.faceOffsets.empty()) files.push_back(lab::writeGlb(mesh));
   }
   return files;
+}
+
+std::vector<FileBytes> drcSeeds() {
+  return {sequentialGrid(), edgebreakerGrid()};
 }
 
 std::vector<FileBytes> keySeeds() {

@@ -14,6 +14,7 @@ namespace quadmark::test {
 
 [[nodiscard]] std::vector<FileBytes> plySeeds();
 [[nodiscard]] std::vector<FileBytes> gltfSeeds();
+[[nodiscard]] std::vector<FileBytes> drcSeeds();
 [[nodiscard]] std::vector<FileBytes> keySeeds();
 [[nodiscard]] std::vector<FileBytes> pngSeeds();
 

@@ -12,8 +12,9 @@ int main(int argc, char** argv) {
     std::fputs("usage: quadmark_fuzz_seeds DIRECTORY\n", stderr);
     return 2;
   }
-  const std::pair<const char*, std::vector<FileBytes>> targets[] = {
-      {"ply", plySeeds()}, {"gltf", gltfSeeds()}, {"key", keySeeds()}, {"png", pngSeeds()}, {"mesh", meshSeeds()}};
+  const std::pair<const char*, std::vector<FileBytes>> targets[] = {{"ply", plySeeds()}, {"gltf", gltfSeeds()},
+                                                                    {"drc", drcSeeds()}, {"key", keySeeds()},
+                                                                    {"png", pngSeeds()}, {"mesh", meshSeeds()}};
   for (const auto& [target, seeds] : targets) {
     const std::filesystem::path folder = std::filesystem::path(argv[1]) / target;
     std::filesystem::create_directories(folder);
