@@ -88,7 +88,7 @@ TEST(KeyFile, RefusesOtherVersionsAndSchemes) {
   expectRefused(edited("\"quadmark\": 1", "\"quadmark\": \"1\""), ErrorCode::badKey, "quadmark");
   expectRefused(edited("\"quadmark\": 1", "\"quadmark\": 1.5"), ErrorCode::badKey, "quadmark");
   expectRefused(edited("\"quadmark\": 1", "\"quadmark\": 1e30"), ErrorCode::badKey, "quadmark");
-  expectRefused(edited("\"paper\"", "\"robust\""), ErrorCode::badKey, "robust");
+  expectRefused(edited("\"paper\"", "\"sturdy\""), ErrorCode::badKey, "scheme \"sturdy\" is not available");
   expectRefused(edited("\"paper\"", "7"), ErrorCode::badKey, "scheme");
 }
 

@@ -96,12 +96,14 @@ Result<Key> parseKey(std::string_view text) {
   top.text("secret", secret, true);
   top.text("owner", key.owner);
   if (!top.problem().empty()) return badKey(top.problem());
-  if (key.scheme != "paper")
-    return badKey("scheme \"" + key.scheme.substr(0, 40) + "\" is not available in this version (\"paper\" is)");
+  if (key.scheme != "paper" && key.scheme != "robust")
+    return badKey("scheme \"" + key.scheme.substr(0, 40) +
+                  "\" is not available in this version (\"paper\" and \"robust\" are)");
   const auto bytes = fromBase64(secret);
   if (!bytes || bytes->size() != key.secret.size()) return badKey("\"secret\" is not 32 bytes in base64");
   std::copy(bytes->begin(), bytes->end(), key.secret.begin());
 
+  if (key.scheme == "robust") return key;  // what else it needs is read from the mark
   const JsonValue params = json->find("params");
   if (!params.isObject()) return badKey("\"params\" is missing or not an object");
   Members members(params);
@@ -134,6 +136,10 @@ std::string formatKey(const Key& key) {
   json.member("scheme", key.scheme);
   json.member("secret", toBase64(key.secret));
   json.member("owner", key.owner);
+  if (key.scheme == "robust") {
+    json.endObject();
+    return json.text() + "\n";
+  }
   json.key("params");
   json.beginObject();
   json.member("L1", p.L1);

@@ -10,14 +10,12 @@
 #include "quadmark/extract_parts.h"
 #include "quadmark/metrics.h"
 #include "quadmark/prf.h"
-#include "report.h"
+#include "quadmark/robust/frame.h"
+#include "quadmark/robust/reader.h"
+#include "quadmark_calls.h"
 
 namespace quadmark {
 namespace {
-
-bool tell(const Progress& progress, const char* stage, double done) { return !progress || progress(stage, done); }
-
-Error cancelled() { return {ErrorCode::aborted, "cancelled by the caller"}; }
 
 // Cells per glTF node, by the mesh that the vertex of each cell belongs to. Nodes that share a mesh share its cells.
 // @param evidenceOf  what a cell says, >= 0.
@@ -52,6 +50,7 @@ std::vector<NodeCells> cellsPerNode(const Model& model, const WeldedMesh& welded
 
 Result<std::vector<std::uint8_t>> payloadBits(const EmbedRequest& request) {
   const PaperParams& params = request.key.params;
+  if (request.text) return Error{ErrorCode::badKey, "the key is of scheme \"paper\", which has no text payloads"};
   if (request.image.has_value() == request.id.has_value())
     return Error{ErrorCode::badOption, "give either an image or an id to embed"};
   if (request.id) {
@@ -131,12 +130,24 @@ Status scrambleOrder(std::span<const std::uint8_t> file, const Resources& resour
   return okStatus();
 }
 
+// Layers of the robust scheme: which vertices a key selects varies, how many it selects hardly does.
+robust::ReaderCoverage robustPlaces(const Mesh& mesh, double diagonal) {
+  if (!(diagonal > 0)) return {};
+  robust::MeshReader reader(mesh, robust::RobustKeys{}, robust::headCode());
+  robust::Hypothesis diamonds;  // they are counted when they are first looked at
+  diamonds.layers = robust::Layers::diamonds;
+  diamonds.diamondSigma = 1e-5;
+  static_cast<void>(reader.headRatios(diamonds));
+  return reader.coverage();
+}
+
 }  // namespace
 
 const char* version() { return QUADMARK_VERSION; }
 
 Result<EmbedResponse> embed(std::span<const std::uint8_t> file, const Resources& resources,
                             const EmbedRequest& request) {
+  if (request.key.scheme == "robust") return embedRobustFile(file, resources, request);
   if (Status s = validate(request.key.params); !s) return s.error();
   auto bits = payloadBits(request);
   if (!bits) return bits.error();
@@ -170,8 +181,11 @@ Result<EmbedResponse> embed(std::span<const std::uint8_t> file, const Resources&
 
 Result<ExtractResponse> extract(std::span<const std::uint8_t> file, const Resources& resources,
                                 const ExtractRequest& request) {
+  if (request.key.scheme == "robust") return extractRobustFile(file, resources, request);
   const PaperParams& params = request.key.params;
   if (Status s = validate(params); !s) return s.error();
+  if (request.expectedId || request.expectedText)
+    return Error{ErrorCode::badKey, "the key is of scheme \"paper\": compare with a reference image instead"};
   if (request.reference && (request.reference->width != params.width || request.reference->height != params.height))
     return Error{ErrorCode::badImage, "the reference is " + std::to_string(request.reference->width) + " x " +
                                           std::to_string(request.reference->height) + ", the key is for " +
@@ -231,13 +245,18 @@ Result<std::string> inspect(std::span<const std::uint8_t> file, const Resources&
   return formatReport(InspectReport{(*model)->info(), mesh, welded.vertexCount(), componentCount, diagonal,
                                     static_cast<std::uint32_t>(found.cells.size()), found.naturalCells,
                                     cellsPerNode(**model, welded, found.cells, [](const Quad& q) { return q.a; },
-                                                 [](const Quad&) { return 1.0; })});
+                                                 [](const Quad&) { return 1.0; }),
+                                    robustPlaces(mesh, diagonal)});
 }
 
 Result<Key> makeKey(const KeyRequest& request) {
   Key key;
   key.secret = request.secret;
   key.owner = request.owner;
+  key.scheme = request.scheme;
+  if (key.scheme == "robust") return key;
+  if (key.scheme != "paper")
+    return Error{ErrorCode::badOption, "scheme \"" + key.scheme.substr(0, 40) + "\" is not available in this version"};
   key.params = request.params;
   if (request.chooseDigits) {
     if (key.params.bitCount() == 0) return Error{ErrorCode::badOption, "the key needs the size of the image: width and height"};

@@ -3,6 +3,7 @@
 
 #include "base64.h"
 #include "json_writer.h"
+#include "report_parts.h"
 
 namespace quadmark {
 namespace {
@@ -12,21 +13,6 @@ std::string packBits(const std::vector<std::uint8_t>& bits) {
   for (std::size_t i = 0; i < bits.size(); ++i)
     if (bits[i] != 0) bytes[i / 8] = static_cast<std::uint8_t>(bytes[i / 8] | 0x80 >> i % 8);
   return toBase64(bytes);
-}
-
-void writeNodes(JsonWriter& json, const std::vector<NodeCells>& nodes) {
-  json.key("perNode");
-  json.beginArray();
-  for (const NodeCells& n : nodes) {
-    json.beginObject();
-    json.member("node", n.node);
-    json.member("name", n.name);
-    json.member("mesh", n.mesh);
-    json.member("cells", n.cells);
-    json.member("share", n.share);
-    json.endObject();
-  }
-  json.endArray();
 }
 
 // "float32", "float64", or of integer grids "int8", "uint16 normalized", ...; "mixed" where vertices differ.
@@ -48,9 +34,57 @@ std::string formatId(std::uint64_t id) {
   return out;
 }
 
+void writeImage(JsonWriter& json, const BitImage& image, const std::vector<std::uint8_t>& erased) {
+  std::size_t unread = 0;
+  for (std::uint8_t value : erased) unread += value;
+  json.key("image");
+  json.beginObject();
+  json.member("width", image.width);
+  json.member("height", image.height);
+  json.member("bits", packBits(image.bits));
+  json.member("erased", unread);
+  json.member("erasedBits", packBits(erased));
+  json.endObject();
+}
+
+void writeId(JsonWriter& json, const std::optional<std::uint64_t>& id) {
+  json.key("id");
+  if (id) {
+    json.value(formatId(*id));
+  } else {
+    json.null();
+  }
+}
+
+void writeDistortion(JsonWriter& json, const Distortion& d) {
+  json.key("distortion");
+  json.beginObject();
+  json.member("snrDb", d.snrDb);
+  json.member("rmsRel", d.rmsRel);
+  json.member("maxRel", d.maxRel);
+  json.member("hausdorffRel", d.hausdorffRel);
+  json.member("normalPsnrDb", d.normalPsnrDb);
+  json.member("meanNormalDeg", d.meanNormalDeg);
+  json.endObject();
+}
+
+void writeNodes(JsonWriter& json, const std::vector<NodeCells>& nodes) {
+  json.key("perNode");
+  json.beginArray();
+  for (const NodeCells& n : nodes) {
+    json.beginObject();
+    json.member("node", n.node);
+    json.member("name", n.name);
+    json.member("mesh", n.mesh);
+    json.member("cells", n.cells);
+    json.member("share", n.share);
+    json.endObject();
+  }
+  json.endArray();
+}
+
 std::string formatReport(const EmbedReport& r) {
   const MarkedMesh& m = r.marked;
-  const Distortion& d = r.distortion;
   JsonWriter json;
   json.beginObject();
   json.member("scheme", r.key.scheme);
@@ -67,15 +101,7 @@ std::string formatReport(const EmbedReport& r) {
   json.member("reordered", m.guarantees.reordered);
   json.member("affine", m.guarantees.affine);
   json.endObject();
-  json.key("distortion");
-  json.beginObject();
-  json.member("snrDb", d.snrDb);
-  json.member("rmsRel", d.rmsRel);
-  json.member("maxRel", d.maxRel);
-  json.member("hausdorffRel", d.hausdorffRel);
-  json.member("normalPsnrDb", d.normalPsnrDb);
-  json.member("meanNormalDeg", d.meanNormalDeg);
-  json.endObject();
+  writeDistortion(json, r.distortion);
   json.member("bytesChanged", r.bytesChanged);
   json.member("warnings", r.warnings);
   json.endObject();
@@ -84,27 +110,13 @@ std::string formatReport(const EmbedReport& r) {
 
 std::string formatReport(const ExtractReport& r) {
   const Extraction& e = r.extraction;
-  std::size_t erased = 0;
-  for (std::uint8_t value : e.erased) erased += value;
   JsonWriter json;
   json.beginObject();
   json.member("scheme", r.key.scheme);
   json.member("verdict", verdictName(e.verdict));
   json.member("falsePositive", e.falsePositive);
-  json.key("image");
-  json.beginObject();
-  json.member("width", r.key.params.width);
-  json.member("height", r.key.params.height);
-  json.member("bits", packBits(e.bits));
-  json.member("erased", erased);
-  json.member("erasedBits", packBits(e.erased));
-  json.endObject();
-  json.key("id");
-  if (r.id) {
-    json.value(formatId(*r.id));
-  } else {
-    json.null();
-  }
+  writeImage(json, {r.key.params.width, r.key.params.height, e.bits}, e.erased);
+  writeId(json, r.id);
   if (r.ber) json.member("ber", *r.ber);
   json.member("cells", e.cells);
   json.member("exactCells", e.exactCells);
@@ -145,6 +157,12 @@ std::string formatReport(const InspectReport& r) {
     json.endObject();
   }
   json.endArray();
+  json.key("robust");
+  json.beginObject();
+  json.member("carriers", r.robust.carriers);
+  json.member("labels", r.robust.labels);
+  json.member("diamonds", r.robust.diamonds);
+  json.endObject();
   writeNodes(json, r.perNode);
   json.member("warnings", r.info.warnings);
   json.endObject();

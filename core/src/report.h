@@ -9,6 +9,7 @@
 #include "quadmark/extract.h"
 #include "quadmark/io/model.h"
 #include "quadmark/metrics.h"
+#include "quadmark/robust/reader.h"
 
 namespace quadmark {
 
@@ -49,6 +50,7 @@ struct InspectReport {
   double diagonal;
   std::uint32_t cells, naturalCells;
   std::vector<NodeCells> perNode;
+  robust::ReaderCoverage robust;  ///< places of the robust scheme, marked or not
 };
 [[nodiscard]] std::string formatReport(const InspectReport& report);
 

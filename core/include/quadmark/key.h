@@ -34,8 +34,8 @@ struct PaperParams {
 struct Key {
   std::array<std::uint8_t, 32> secret{};
   std::string owner;  ///< free text, may be empty
-  std::string scheme = "paper";
-  PaperParams params;
+  std::string scheme = "paper";  ///< "paper" or "robust"
+  PaperParams params;            ///< of scheme "paper" alone
 };
 
 /// Parses a key file. Fails with badKey (not JSON, a member of the wrong type or range: names it; a scheme this

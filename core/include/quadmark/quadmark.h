@@ -13,6 +13,7 @@
 #include "quadmark/io/model.h"
 #include "quadmark/key.h"
 #include "quadmark/result.h"
+#include "quadmark/robust/embedder.h"
 
 namespace quadmark {
 
@@ -23,11 +24,24 @@ namespace quadmark {
 /// Return false to cancel: the call then fails with `aborted`.
 using Progress = std::function<bool(const char* stage, double done)>;
 
+/// Of scheme `robust` alone.
+struct RobustOptions {
+  robust::Strength strength = robust::Strength::standard;
+  double maxErrorRel = 0;  ///< cap on every vertex's displacement, of the bounding-box diagonal; 0 = the preset's own
+  double maxSlideRel = 0;  ///< cap on its part along the surface; 0 = the preset's own
+  std::string salt;        ///< names the asset; reading takes the same one
+  bool selfTest = false;   ///< damage the marked mesh in six ways and report which it withstands
+};
+
 struct EmbedRequest {
   Key key;
-  std::optional<BitImage> image;    ///< exactly one of image and id, of the kind and size the key names
-  std::optional<std::uint64_t> id;
-  Progress progress;                ///< may be empty
+  /// Exactly one payload. Scheme `paper`: image or id, of the kind and size the key names. Scheme `robust`: an image up
+  /// to 128 x 128, any id, or 1 to 64 bytes of UTF-8.
+  std::optional<BitImage> image{};
+  std::optional<std::uint64_t> id{};
+  std::optional<std::string> text{};
+  RobustOptions robust{};
+  Progress progress{};              ///< may be empty
 };
 
 struct EmbedResponse {
@@ -37,23 +51,33 @@ struct EmbedResponse {
 
 /// Marks a model. The output differs from the input only in position components (and glTF min / max).
 /// Fails as readModel(), or with badOption, badKey, badImage, capacity (the message has the numbers), aborted.
-/// Deterministic: equal input gives equal bytes on every platform. Cost: linear, about 2 microseconds per vertex.
+/// Deterministic: equal input gives equal bytes on every platform. Cost: linear, some microseconds per vertex.
 [[nodiscard]] Result<EmbedResponse> embed(std::span<const std::uint8_t> file, const Resources& resources,
                                           const EmbedRequest& request);
 
 struct ExtractRequest {
   Key key;
-  std::optional<BitImage> reference;  ///< compare with this image and use its agreement for the verdict
-  Progress progress;
+  std::optional<BitImage> reference{};  ///< compare with this image and use its agreement for the verdict
+  /// Scheme `robust`, at most one of these and `reference`: a mark too faint to be read may still be told to be this one. A
+  /// mark of this key with another id or text is then no match.
+  std::optional<std::uint64_t> expectedId{};
+  std::optional<std::string> expectedText{};
+  std::string salt{};                 ///< scheme `robust`: as given when marking
+  Progress progress{};
 };
 
 struct ExtractResponse {
   std::string verdict;               ///< "match", "none" or "inconclusive"
   double falsePositive = 1;          ///< upper bound on the probability of so much agreement without this key's mark
-  BitImage image;                    ///< for an ID payload 64 x 1, most significant bit first
+  /// Scheme `paper`: always there, for an ID payload 64 x 1, most significant bit first. Scheme `robust`: 0 x 0 where no
+  /// image was found.
+  BitImage image;
   std::vector<std::uint8_t> erased;  ///< per pixel: 1 = not read (bits holds 0 there)
   std::vector<float> confidence;     ///< per pixel: 0 (guess) .. 1 (certain)
-  std::optional<std::uint64_t> id;   ///< ID payloads with verdict "match" and no erasure
+  std::optional<std::uint64_t> id;   ///< ID payloads that were read with certainty
+  std::optional<std::string> text{}; ///< the same for texts
+  /// Scheme `robust`: per vertex of the model how much its votes agree with the mark, -1 .. 1, 0 = no vote; empty without one.
+  std::vector<float> evidence{};
   std::string reportJson;            ///< the extract report of docs/format.md, one line
 };
 
@@ -69,6 +93,7 @@ struct ExtractResponse {
 struct KeyRequest {
   std::array<std::uint8_t, 32> secret{};
   std::string owner;
+  std::string scheme = "paper";  ///< or "robust", which has no parameters
   PaperParams params;            ///< width, height and payload are required
   bool chooseDigits = true;      ///< replace L1, H1, L2, H2 by Eq. (7) starting at params.L1
 };

@@ -181,6 +181,7 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
       diamondHit[slot.stream == Stream::body][slot.bit] = 1;
     }
   out.cells = static_cast<std::uint32_t>(cells.cells.size());
+  out.symbolBits = constellation.shape().symbol;
   out.vetoed = cells.vetoed;
   out.goodCells = constellation.groups();
   out.ringPositions = countSet(ringHit[0]);

@@ -27,6 +27,7 @@ struct RobustEmbedding {
   std::uint32_t carriers = 0;         ///< of these, written (the others were vetoed)
   std::uint32_t labels = 0;           ///< distinct labels among the written
   std::uint32_t cells = 0;            ///< cells of layer B written
+  std::uint32_t symbolBits = 0;       ///< coded bits that each of them carries
   std::uint32_t vetoed = 0;           ///< cells undone because a face would have turned too far
   std::uint32_t goodCells = 0;        ///< fine cells that carry this payload: cells / goodCells copies of each
   std::uint8_t deltaClass = 0;
