@@ -2,7 +2,7 @@
 // quadmark_native: the core's calls on files, for the parity tests and for profiling. Not a product: the command line for
 // users is the npm package's.
 //
-//   quadmark_native embed IN OUT KEY (image PNG | id HEX) [URI=FILE ...]   marks; writes OUT and OUT.<n> per changed buffer
+//   quadmark_native embed IN OUT KEY (image PNG | id HEX | text TEXT) [URI=FILE ...]   marks; writes OUT and OUT.<n> per changed buffer
 //   quadmark_native extract IN KEY [URI=FILE ...]                          reads; prints the report and the bits
 //   quadmark_native inspect IN [URI=FILE ...]
 //   quadmark_native attack IN OUT KIND AMOUNT VARIANT ITERATIONS SEED      writes PLY, or GLB when OUT ends in .glb
@@ -78,7 +78,7 @@ Result<Key> readKey(const std::string& path) {
 }
 
 Result<std::string> runEmbed(const std::vector<std::string>& arguments) {
-  if (arguments.size() < 6) return Error{ErrorCode::badOption, "embed: IN OUT KEY (image PNG | id HEX) [URI=FILE ...]"};
+  if (arguments.size() < 6) return Error{ErrorCode::badOption, "embed: IN OUT KEY (image PNG | id HEX | text TEXT) [URI=FILE ...]"};
   auto file = readFile(arguments[1]);
   if (!file) return file.error();
   auto key = readKey(arguments[3]);
@@ -93,6 +93,8 @@ Result<std::string> runEmbed(const std::vector<std::string>& arguments) {
     auto image = decodePng(*png);
     if (!image) return image.error();
     request.image = std::move(*image);
+  } else if (arguments[4] == "text") {
+    request.text = arguments[5];
   } else {
     auto id = parseNumber<std::uint64_t>(arguments[5], 16);
     if (!id) return id.error();
@@ -130,6 +132,8 @@ Result<std::string> runExtract(const std::vector<std::string>& arguments) {
   result["erased"] = response->erased;
   result["confidence"] = response->confidence;
   result["id"] = response->id ? json(std::to_string(*response->id)) : json(nullptr);
+  result["text"] = response->text ? json(*response->text) : json(nullptr);
+  result["evidence"] = response->evidence;
   result["report"] = json::parse(response->reportJson, nullptr, false);
   return result.dump();
 }

@@ -47,8 +47,8 @@ test('usage mistakes are exit 2', async (t) => {
   await refuses(['embed', 'in.ply', 'out.ply', '--bogus'], 2, /unknown option/);
   await refuses(['embed', 'in.ply', ...EMBED], 2, /expected IN and OUT/);
   await refuses(['embed', 'in.ply', 'out.ply', '--image', 'logo.png'], 2, /no key.*QUADMARK_KEY_FILE/);
-  await refuses(['embed', 'in.ply', 'out.ply', '--key', 'key.json'], 2, /exactly one of --image and --id/);
-  await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--id', '1'], 2, /exactly one of --image and --id/);
+  await refuses(['embed', 'in.ply', 'out.ply', '--key', 'key.json'], 2, /exactly one of --image, --id and --text/);
+  await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--id', '1'], 2, /exactly one of --image, --id and --text/);
   await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--set', 'lambda'], 2, /NAME=VALUE/);
   await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--set', 'strength=1'], 2, /strength: unknown parameter/);
   await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--set', 'H1=40'], 2, /H1/);
@@ -59,7 +59,7 @@ test('usage mistakes are exit 2', async (t) => {
   await refuses(['keygen', 'new.json'], 2, /exactly one of --image, --size and --id-bits/);
   await refuses(['keygen', 'new.json', '--size', '24'], 2, /WIDTHxHEIGHT/);
   await refuses(['keygen', 'new.json', '--id-bits', '32'], 2, /only 64/);
-  await refuses(['keygen', 'new.json', '--size', '24x24', '--scheme', 'robust'], 2, /not available in this version/);
+  await refuses(['keygen', 'new.json', '--size', '24x24', '--scheme', 'sturdy'], 2, /not available in this version/);
   await refuses(['attack', 'in.ply', 'out.ply'], 2, /--kind/);
   await refuses(['attack', 'in.ply', 'out.ply', '--kind', 'paint'], 2, /paint/);
   await refuses(['attack', 'in.ply', 'out.obj', '--kind', 'reorder'], 2, /\.ply or \.glb/);
@@ -80,8 +80,8 @@ test('what cannot be read is exit 1 with the reason', async (t) => {
 
 test('a key of another scheme or version is refused', async (t) => {
   const change = (part) => JSON.stringify({ ...JSON.parse(key), ...part });
-  const { refuses } = workspace(t, { 'robust.json': change({ scheme: 'robust' }), 'new.json': change({ quadmark: 9 }) });
-  await refuses(['embed', 'in.ply', 'out.ply', '--key', 'robust.json', '--image', 'logo.png'], 1, /robust.*bad_key/);
+  const { refuses } = workspace(t, { 'sturdy.json': change({ scheme: 'sturdy' }), 'new.json': change({ quadmark: 9 }) });
+  await refuses(['embed', 'in.ply', 'out.ply', '--key', 'sturdy.json', '--image', 'logo.png'], 1, /sturdy.*bad_key/);
   await refuses(['embed', 'in.ply', 'out.ply', '--key', 'new.json', '--image', 'logo.png'], 1, /unsupported_version/);
   await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--scheme', 'robust'], 1, /key is for scheme "paper"/);
 });

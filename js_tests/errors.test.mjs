@@ -132,7 +132,7 @@ test('keys that cannot be used are refused', async () => {
   await fails(parseKey('[]'), 'bad_key', /object/);
   await fails(parseKey(Buffer.from([0x7b, 0xff, 0x7d])), 'bad_key', /UTF-8/);
   await fails(parseKey(7), 'bad_key', /key/);
-  await fails(broken((copy) => { copy.scheme = 'robust'; }), 'bad_key', /robust/);
+  await fails(broken((copy) => { copy.scheme = 'sturdy'; }), 'bad_key', /sturdy/);
   await fails(broken((copy) => { copy.quadmark = 2; }), 'unsupported_version', /2/);
   await fails(broken((copy) => { delete copy.secret; }), 'bad_key', /secret/);
   await fails(broken((copy) => { copy.secret = 'AAAA'; }), 'bad_key', /secret/);
@@ -144,7 +144,7 @@ test('keys that cannot be used are refused', async () => {
 });
 
 test('wrong arguments are refused, misspelt ones too', async () => {
-  await fails(embed(ply, { key }), 'bad_option', /exactly one of image and id/);
+  await fails(embed(ply, { key }), 'bad_option', /exactly one of image, id and text/);
   await fails(embed(ply, { key, image, id: '1' }), 'bad_option', /exactly one/);
   await fails(embed('model.ply', { key, image }), 'bad_option', /model: expected a Uint8Array/);
   await fails(embed(ply, undefined), 'bad_option', /request/);
@@ -159,7 +159,7 @@ test('wrong arguments are refused, misspelt ones too', async () => {
   await fails(createKey({}), 'bad_option', /width and height/);
   await fails(createKey({ width: 24 }), 'bad_option', /height/);
   await fails(createKey({ width: 24, height: 24, id: true }), 'bad_option', /either/);
-  await fails(createKey({ width: 24, height: 24, scheme: 'robust' }), 'bad_option', /"robust" is not available in this version/);
+  await fails(createKey({ width: 24, height: 24, scheme: 'sturdy' }), 'bad_option', /"sturdy" is not available in this version/);
   await fails(createKey({ width: 24, height: 24, H1: 3 }), 'bad_option', /go together/);
   await fails(createKey({ width: 24, height: 24, L: 1 }), 'bad_option', /L: /);
   await fails(createKey({ width: 24, height: 24, lambda: NaN }), 'bad_option', /lambda/);

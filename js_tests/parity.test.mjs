@@ -36,12 +36,16 @@ async function runNative(...args) {
   return json[0];
 }
 
-/** Marks, damages and reads `path` natively and in wasm, comparing everything. */
-async function compare(t, path, { size = 24, L = 2, attacks = [{ kind: 'crop', amount: 0.5 }] } = {}) {
+/**
+ * Marks, damages and reads `path` natively and in wasm, comparing everything.
+ * @param payload  { id } or { text } instead of a picture: for keys of scheme robust
+ */
+async function compare(t, path, { size = 24, L = 2, scheme = 'paper', payload, attacks = [{ kind: 'crop', amount: 0.5 }] } = {}) {
   const folder = temporaryFolder(t);
   const name = basename(path);
   const image = logo(size);
-  const key = await createKey({ width: size, height: size, L });
+  const key = await createKey(scheme === 'robust' ? { scheme } : { width: size, height: size, L });
+  const mark = payload ?? { image };
   writeFileSync(join(folder, 'key.json'), JSON.stringify(key));
   writeFileSync(join(folder, 'logo.png'), logoPng(image));
   const { model, resources } = await readModelFiles(path);
@@ -49,8 +53,9 @@ async function compare(t, path, { size = 24, L = 2, attacks = [{ kind: 'crop', a
 
   assert.deepEqual(await inspect(model, { resources }), await runNative('inspect', path, ...nativeResources), `${name}: inspect`);
   const out = join(folder, name);
-  const nativeReport = await runNative('embed', path, out, join(folder, 'key.json'), 'image', join(folder, 'logo.png'), ...nativeResources);
-  const marked = await embed(model, { key, image, resources });
+  const nativeReport = await runNative('embed', path, out, join(folder, 'key.json'),
+    ...(payload ? Object.entries(payload)[0] : ['image', join(folder, 'logo.png')]), ...nativeResources);
+  const marked = await embed(model, { key, ...mark, resources });
   equal(marked.bytes, readFileSync(out), `${name}: marked file`);
   const changed = Object.keys(marked.resources).sort();
   changed.forEach((uri, i) => equal(marked.resources[uri], readFileSync(`${out}.${i}`), `${name}: ${uri}`));
@@ -60,16 +65,21 @@ async function compare(t, path, { size = 24, L = 2, attacks = [{ kind: 'crop', a
     const there = Object.keys(given).map((uri) => `${uri}=${out}.${changed.indexOf(uri)}`);
     const expected = await runNative('extract', file, join(folder, 'key.json'), ...there);
     const result = await extract(bytes, { key, resources: given });
-    assert.deepEqual([...result.image.bits], expected.bits, `${what}: bits`);
-    assert.deepEqual([...result.image.erased], expected.erased, `${what}: erased`);
-    assert.deepEqual([...result.image.confidence], expected.confidence.map(Math.fround), `${what}: confidence`);
+    assert.deepEqual([...(result.image?.bits ?? [])], expected.bits, `${what}: bits`);
+    assert.deepEqual([...(result.image?.erased ?? [])], expected.erased, `${what}: erased`);
+    assert.deepEqual([...(result.image?.confidence ?? [])], expected.confidence.map(Math.fround), `${what}: confidence`);
+    assert.deepEqual([...result.evidence], expected.evidence.map(Math.fround), `${what}: evidence`);
+    assert.equal(result.text, expected.text, `${what}: text`);
+    assert.equal(result.id === null ? null : BigInt(`0x${result.id}`).toString(), expected.id, `${what}: id`);
     assert.equal(result.verdict, expected.verdict, what);
     assert.equal(result.falsePositive, expected.falsePositive, what);
     assert.deepEqual(result.report, expected.report, `${what}: extract report`);
     return result;
   };
   const result = await read(out, marked.bytes, marked.resources, `${name}, marked`);
-  assert.deepEqual(result.image.bits, image.bits, `${name}: the image comes back`);
+  if (payload?.id) assert.equal(result.id, payload.id.padStart(16, '0'), `${name}: the ID comes back`);
+  else if (payload?.text) assert.equal(result.text, payload.text, `${name}: the text comes back`);
+  else assert.deepEqual(result.image.bits, image.bits, `${name}: the image comes back`);
   if (changed.length > 0) return;
   for (const request of attacks) {
     const what = `${name}, ${request.kind}`;
@@ -115,5 +125,30 @@ test('real models are marked and read alike', { skip }, async (t) => {
   for (const { path } of realModels(t, ['bunny.ply', 'fandisk.glb', 'rocker-arm.ply', 'beast-quads.ply', 'Duck.glb', 'SheenCloth.glb', 'Fox/Fox.gltf'])) {
     const small = /Duck|Fox/.test(path);
     await compare(t, path, { L: /fandisk/.test(path) ? 3 : 2, size: small ? 8 : 24, attacks: [{ kind: 'affine', variant: 'CB' }, { kind: 'crop', amount: 0.5 }] });
+  }
+});
+
+test('marks of scheme robust are written, damaged in every way and read alike', { skip }, async (t) => {
+  const path = join(temporaryFolder(t), 'sculpture.ply');
+  writeFileSync(path, (await generate({ name: 'sculpture', vertices: 9000 })).bytes);
+  const scheme = 'robust';
+  await compare(t, path, { scheme, payload: { id: 'c0ffee' }, attacks: [...ATTACKS, { kind: 'quantize', amount: 9, variant: 'common' }] });
+  await compare(t, path, { scheme, payload: { text: 'a text with a body' }, attacks: ATTACKS.slice(0, 3) });
+  await compare(t, path, { scheme, size: 16, attacks: [...ATTACKS.slice(0, 5), { kind: 'noise', amount: 1e-3, seed: 4 }] });
+});
+
+test('polygons, grids and parts are marked alike by scheme robust', { skip }, async (t) => {
+  const folder = temporaryFolder(t);
+  for (const [name, vertices] of [['part', 8000], ['bumpy-grid', 6000], ['quad-sphere', 6000]]) {
+    const path = join(folder, `${name}.ply`);
+    writeFileSync(path, (await generate({ name, vertices })).bytes);
+    await compare(t, path, { scheme: 'robust', payload: { id: '1' }, attacks: ATTACKS.slice(0, 3) });
+  }
+});
+
+test('real models are marked and read alike by scheme robust', { skip }, async (t) => {
+  for (const { path } of realModels(t, ['bunny.ply', 'fandisk.glb', 'beast-quads.ply', 'Duck.glb'])) {
+    await compare(t, path, { scheme: 'robust', payload: { id: 'fedcba9876543210' },
+      attacks: [{ kind: 'affine', variant: 'CB' }, { kind: 'quantize', amount: 12, variant: 'common' }, { kind: 'simplify', amount: 0.3, variant: 'meshopt' }] });
   }
 });

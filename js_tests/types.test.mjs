@@ -50,7 +50,7 @@ test('the types know every error code', () => {
 
 test('correct use compiles under strict', (t) => {
   const messages = compile(t, `
-    import { createKey, embed, extract, inspect, QuadmarkError, type Key } from 'quadmark';
+    import { createKey, embed, extract, inspect, QuadmarkError, type Key, type RobustKey } from 'quadmark';
     import { attack } from 'quadmark/lab';
     const model = new Uint8Array(10);
     const key: Key = await createKey({ width: 24, height: 24, owner: 'me' });
@@ -63,7 +63,12 @@ test('correct use compiles under strict', (t) => {
     const damaged = await attack(bytes, { kind: 'crop', amount: 0.5, resources });
     const { verdict, image, id } = await extract(damaged.bytes, { key: JSON.stringify(key), reference: bytes });
     const text: 'match' | 'none' | 'inconclusive' = verdict;
-    const confidence: Float32Array = image.confidence;
+    const confidence: Float32Array | undefined = image?.confidence;
+    const robust: RobustKey = await createKey({ scheme: 'robust', owner: 'me' });
+    const named = await embed(model, { key: robust, text: 'chair 42', options: { strength: 'strong', maxError: 1e-3, salt: 'chair', selfTest: true } });
+    const found = await extract(named.bytes, { key: robust, expectText: 'chair 42', options: { salt: 'chair' } });
+    const name: string | null = found.text, evidence: Float32Array = found.evidence;
+    console.log(name, evidence.length);
     const hex: string | null = id;
     try { await inspect(model); } catch (error) {
       if (error instanceof QuadmarkError && error.code === 'bad_file') console.log(error.message);
@@ -78,7 +83,9 @@ test('misuse does not compile', (t) => {
     `import { embed } from 'quadmark'; await embed('model.ply', { key: {} as any });`,
     `import { embed } from 'quadmark'; await embed(new Uint8Array(1), { image: new Uint8Array(1) });`,
     `import { QuadmarkError } from 'quadmark'; new QuadmarkError('no_such_code', '');`,
-    `import { createKey } from 'quadmark'; await createKey({ scheme: 'robust' });`,
+    `import { createKey } from 'quadmark'; await createKey({ scheme: 'sturdy' });`,
+    `import { createKey } from 'quadmark'; await createKey({ scheme: 'robust', width: 24, height: 24 });`,
+    `import { embed } from 'quadmark'; await embed(new Uint8Array(1), { key: '', id: '1', options: { strength: 'weak' } });`,
   ];
   for (const source of wrong) assert.notEqual(compile(t, source).length, 0, source);
 });

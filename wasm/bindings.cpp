@@ -2,12 +2,37 @@
 // The product's binding table. Each function converts, calls the core, converts back, and decides nothing itself.
 #include <emscripten/bind.h>
 
+#include <utility>
+
 #include "convert.h"
 
 namespace quadmark::wasm {
 namespace {
 
-/// request: { key: JSON text, image?: PNG bytes or bits, id?: 16 hex digits, progress?: function }
+/// Members that only keys of scheme `robust` take; fails with badOption for others.
+Status robustOptionsFrom(const val& request, const Key& key, RobustOptions& options) {
+  for (const char* name : {"strength", "maxError", "maxSlide", "salt", "selfTest"}) {
+    if (key.scheme != "robust" && isPresent(request[name])) {
+      return Error{ErrorCode::badOption, std::string(name) + ": only with a key of scheme \"robust\""};
+    }
+  }
+  if (isPresent(request["strength"])) {
+    const auto strength = robust::strengthFrom(request["strength"].as<std::string>());
+    if (!strength) return strength.error();
+    options.strength = *strength;
+  }
+  for (const auto& [name, target] : {std::pair("maxError", &options.maxErrorRel), std::pair("maxSlide", &options.maxSlideRel)}) {
+    const auto number = numberFrom(request, name, 0);
+    if (!number) return number.error();
+    *target = *number;
+  }
+  if (isPresent(request["salt"])) options.salt = request["salt"].as<std::string>();
+  options.selfTest = isPresent(request["selfTest"]) && request["selfTest"].as<bool>();
+  return okStatus();
+}
+
+/// request: { key: JSON text, image?: PNG bytes or bits, id?: 16 hex digits, text?, strength?, maxError?, maxSlide?, salt?,
+/// selfTest?, progress?: function }
 val embedModel(const val& file, const val& resourceEntries, const val& request) {
   auto key = parseKey(request["key"].as<std::string>());
   if (!key) return failure(key.error());
@@ -19,6 +44,10 @@ val embedModel(const val& file, const val& resourceEntries, const val& request) 
     embedRequest.image = std::move(*image);
   }
   if (isPresent(request["id"])) embedRequest.id = idFrom(request["id"].as<std::string>());
+  if (isPresent(request["text"])) embedRequest.text = request["text"].as<std::string>();
+  if (Status status = robustOptionsFrom(request, embedRequest.key, embedRequest.robust); !status) {
+    return failure(status.error());
+  }
   embedRequest.progress = progressFrom(request["progress"]);
 
   auto response = embed(bytesFrom(file), resourcesFrom(resourceEntries), embedRequest);
@@ -30,7 +59,8 @@ val embedModel(const val& file, const val& resourceEntries, const val& request) 
   return result;
 }
 
-/// request: { key: JSON text, reference?: PNG bytes or bits, progress?: function }
+/// request: { key: JSON text, reference?: PNG bytes or bits, expectId?: 16 hex digits, expectText?, salt?,
+/// progress?: function }
 val extractMark(const val& file, const val& resourceEntries, const val& request) {
   auto key = parseKey(request["key"].as<std::string>());
   if (!key) return failure(key.error());
@@ -41,21 +71,31 @@ val extractMark(const val& file, const val& resourceEntries, const val& request)
     if (!reference) return failure(reference.error());
     extractRequest.reference = std::move(*reference);
   }
+  if (isPresent(request["expectId"])) extractRequest.expectedId = idFrom(request["expectId"].as<std::string>());
+  if (isPresent(request["expectText"])) extractRequest.expectedText = request["expectText"].as<std::string>();
+  RobustOptions options;
+  if (Status status = robustOptionsFrom(request, extractRequest.key, options); !status) return failure(status.error());
+  extractRequest.salt = options.salt;
   extractRequest.progress = progressFrom(request["progress"]);
 
   auto response = extract(bytesFrom(file), resourcesFrom(resourceEntries), extractRequest);
   if (!response) return failure(response.error());
-  val image = imageTo(response->image);
-  image.set("erased", arrayFrom<std::uint8_t>(response->erased));
-  image.set("confidence", arrayFrom<float>(response->confidence));
-  image.set("png", arrayFrom<std::uint8_t>(encodePng(response->image, response->erased)));
-  image.set("confidencePng", arrayFrom<std::uint8_t>(encodeGreyPng(response->image.width, response->image.height,
-                                                                   response->confidence)));
+  val image = val::null();
+  if (response->image.width != 0) {
+    image = imageTo(response->image);
+    image.set("erased", arrayFrom<std::uint8_t>(response->erased));
+    image.set("confidence", arrayFrom<float>(response->confidence));
+    image.set("png", arrayFrom<std::uint8_t>(encodePng(response->image, response->erased)));
+    image.set("confidencePng", arrayFrom<std::uint8_t>(encodeGreyPng(response->image.width, response->image.height,
+                                                                     response->confidence)));
+  }
   val result = val::object();
   result.set("verdict", response->verdict);
   result.set("falsePositive", response->falsePositive);
   result.set("image", image);
   result.set("id", response->id ? val(idTo(*response->id)) : val::null());
+  result.set("text", response->text ? val(*response->text) : val::null());
+  result.set("evidence", arrayFrom<float>(response->evidence));
   result.set("report", response->reportJson);
   return result;
 }
@@ -79,7 +119,14 @@ val listExternalUris(const val& file) {
   return result;
 }
 
-/// request: { secret: 32 bytes, owner?, payload: "image" | "id", width?, height?, L?, H1, L1, H2, L2 (all four or none),
+val keyOf(const Result<Key>& key) {
+  if (!key) return failure(key.error());
+  val result = val::object();
+  result.set("key", formatKey(*key));
+  return result;
+}
+
+/// request: { secret: 32 bytes, owner?, scheme: "paper" | "robust", and for "paper" payload: "image" | "id", width?, height?, L?, H1, L1, H2, L2 (all four or none),
 /// lambda?, tau?, k?, keyedCells?, scrambleOrder? } -> { key: JSON text }
 val createKey(const val& request) {
   KeyRequest keyRequest;
@@ -89,6 +136,8 @@ val createKey(const val& request) {
   }
   for (std::size_t i = 0; i < secret.size(); ++i) keyRequest.secret[i] = secret[i];
   if (isPresent(request["owner"])) keyRequest.owner = request["owner"].as<std::string>();
+  keyRequest.scheme = request["scheme"].as<std::string>();
+  if (keyRequest.scheme != "paper") return keyOf(makeKey(keyRequest));
 
   PaperParams& params = keyRequest.params;
   const bool isId = request["payload"].as<std::string>() == "id";
@@ -120,20 +169,12 @@ val createKey(const val& request) {
   params.scrambleOrder = isPresent(request["scrambleOrder"]) && request["scrambleOrder"].as<bool>();
   if (failed) return failure(problem);
 
-  auto key = makeKey(keyRequest);
-  if (!key) return failure(key.error());
-  val result = val::object();
-  result.set("key", formatKey(*key));
-  return result;
+  return keyOf(makeKey(keyRequest));
 }
 
 /// Checks a key file and writes it in its normal form: { key: JSON text }.
 val normalizeKey(const std::string& json) {
-  auto key = parseKey(json);
-  if (!key) return failure(key.error());
-  val result = val::object();
-  result.set("key", formatKey(*key));
-  return result;
+  return keyOf(parseKey(json));
 }
 
 /// { image } of a PNG; threshold < 0 lets Otsu's method choose.

@@ -11,10 +11,6 @@ using robust::Comparison;
 using robust::Layers;
 using robust::PayloadKind;
 
-const char* strengthName(std::uint32_t strength) {
-  return strength == 0 ? "invisible" : strength == 1 ? "standard" : "strong";
-}
-
 const char* kindName(PayloadKind kind) {
   return kind == PayloadKind::id ? "id" : kind == PayloadKind::image ? "image" : "text";
 }
@@ -52,7 +48,7 @@ std::string formatReport(const RobustEmbedReport& r) {
   json.beginObject();
   json.member("scheme", "robust");
   json.member("payload", kindName(r.payload.frame.kind));
-  json.member("strength", strengthName(static_cast<std::uint32_t>(r.strength)));
+  json.member("strength", robust::strengthName(r.strength));
   json.member("capacityClass", capacityClassName(capacityClass(e)));
   json.member("cells", std::uint64_t{e.carriers} + e.cells);
   json.member("capacityBits", written);
@@ -130,7 +126,7 @@ std::string formatReport(const RobustExtractReport& r) {
   }
   if (r.ber) json.member("ber", *r.ber);
   if (m.frame)
-    if (const auto shape = robust::bodyShape(*m.frame)) json.member("strength", strengthName(shape->strength));
+    if (const auto shape = robust::bodyShape(*m.frame)) json.member("strength", robust::strengthName(static_cast<robust::Strength>(shape->strength)));
   json.key("hypothesis");
   if (m.hypothesis) {
     json.beginObject();

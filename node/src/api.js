@@ -1,9 +1,28 @@
 // SPDX-License-Identifier: MIT
 // The public calls over a Loader: they check types, convert plain data, and turn failures into QuadmarkError. What a
 // value may be (ranges, sizes, formats) is the core's to decide.
-import { toBytes, toEntries, toIdDigits, toImage, toKeyJson, known, isObject } from './arguments.js';
+import { toBytes, toEntries, toIdDigits, toImage, toKeyJson, toText, known, isObject } from './arguments.js';
 import { needsDraco } from './draco.js';
 import { QuadmarkError } from './error.js';
+
+/** The scheme of keys that are made without naming one. */
+export const DEFAULT_SCHEME = 'paper';
+
+const LONG_CALL = ['onProgress', 'signal'];
+
+/** Options of the robust scheme as the bindings take them; which keys they go with is the core's to decide. */
+function robustOptions(options, names) {
+  const given = {};
+  for (const name of names) {
+    const value = options?.[name];
+    if (value === undefined) continue;
+    if (name === 'selfTest' && typeof value !== 'boolean') {
+      throw new QuadmarkError('bad_option', 'options.selfTest: expected true or false');
+    }
+    given[name] = name === 'salt' || name === 'strength' ? toText(`options.${name}`, value) : value;
+  }
+  return given;
+}
 
 /** The value of a binding, or its failure thrown. */
 export function unwrap(result) {
@@ -20,7 +39,7 @@ function throwIfAborted(signal) {
  * wasm frames (they would never clean up): it is held back, the core is told to stop, and it is thrown afterwards.
  */
 async function runLong(loader, options, use) {
-  const { onProgress, signal } = known('options', options ?? {}, ['onProgress', 'signal']);
+  const { onProgress, signal } = options ?? {};
   if (onProgress !== undefined && typeof onProgress !== 'function') {
     throw new QuadmarkError('bad_option', 'options.onProgress: expected a function');
   }
@@ -63,14 +82,19 @@ export function createApi(loader, dracoLoader = loader) {
   const loaderFor = (model) => (needsDraco(model) ? dracoLoader : loader);
   return {
     async embed(model, request) {
-      const { key, image, id, resources, options } =
-        known('request', request, ['key', 'image', 'id', 'resources', 'options']);
-      if ((image == null) === (id == null)) {
-        throw new QuadmarkError('bad_option', 'embed: give exactly one of image and id');
+      const { key, image, id, text, resources, options } =
+        known('request', request, ['key', 'image', 'id', 'text', 'resources', 'options']);
+      const names = ['strength', 'maxError', 'maxSlide', 'salt', 'selfTest'];
+      known('options', options ?? {}, [...LONG_CALL, ...names]);
+      if ([image, id, text].filter((given) => given != null).length !== 1) {
+        throw new QuadmarkError('bad_option', 'embed: give exactly one of image, id and text');
       }
       const bytes = toBytes('model', model);
       const entries = toEntries(resources);
-      const mark = image == null ? { id: toIdDigits(id) } : { image: toImage('image', image) };
+      const mark = robustOptions(options, names);
+      if (image != null) mark.image = toImage('image', image);
+      if (id != null) mark.id = toIdDigits(id);
+      if (text != null) mark.text = toText('text', text);
       const keyJson = toKeyJson(key);
       const result = await runLong(loaderFor(bytes), options, (api, progress) =>
         api.embed(bytes, entries, { key: keyJson, ...mark, progress }));
@@ -82,14 +106,18 @@ export function createApi(loader, dracoLoader = loader) {
     },
 
     async extract(model, request) {
-      const { key, reference, resources, options } =
-        known('request', request, ['key', 'reference', 'resources', 'options']);
+      const { key, reference, expectId, expectText, resources, options } =
+        known('request', request, ['key', 'reference', 'expectId', 'expectText', 'resources', 'options']);
+      known('options', options ?? {}, [...LONG_CALL, 'salt']);
       const bytes = toBytes('model', model);
       const entries = toEntries(resources);
-      const expected = reference == null ? undefined : toImage('reference', reference);
+      const expected = robustOptions(options, ['salt']);
+      if (reference != null) expected.reference = toImage('reference', reference);
+      if (expectId != null) expected.expectId = toIdDigits(expectId, 'expectId');
+      if (expectText != null) expected.expectText = toText('expectText', expectText);
       const keyJson = toKeyJson(key);
       const result = await runLong(loaderFor(bytes), options, (api, progress) =>
-        api.extract(bytes, entries, { key: keyJson, reference: expected, progress }));
+        api.extract(bytes, entries, { key: keyJson, ...expected, progress }));
       return { ...result, report: JSON.parse(result.report) };
     },
 
@@ -108,10 +136,16 @@ export function createApi(loader, dracoLoader = loader) {
     async createKey(request) {
       const names = ['owner', 'scheme', 'width', 'height', 'id', 'L', 'H1', 'L1', 'H2', 'L2', 'lambda', 'tau', 'k',
         'keyedCells', 'scrambleOrder'];
-      const { owner = '', scheme = 'paper', id = false, ...params } = known('request', request, names);
+      const { owner = '', scheme = DEFAULT_SCHEME, id = false, ...params } = known('request', request, names);
       if (typeof owner !== 'string') throw new QuadmarkError('bad_option', 'owner: expected text');
+      const secret = crypto.getRandomValues(new Uint8Array(32));
+      const make = (core) => loader.call((api) => JSON.parse(unwrap(api.createKey({ ...core, secret, owner, scheme })).key));
+      if (scheme === 'robust') {
+        known('a key of scheme "robust"', request, ['owner', 'scheme']);
+        return make({});
+      }
       if (scheme !== 'paper') {
-        throw new QuadmarkError('bad_option', `scheme ${JSON.stringify(scheme)} is not available in this version, only "paper"`);
+        throw new QuadmarkError('bad_option', `scheme ${JSON.stringify(scheme)} is not available in this version, only "paper" and "robust"`);
       }
       for (const name of ['keyedCells', 'scrambleOrder']) {
         if (params[name] !== undefined && typeof params[name] !== 'boolean') {
@@ -125,9 +159,7 @@ export function createApi(loader, dracoLoader = loader) {
       if (digits.length !== 0 && digits.length !== 4) {
         throw new QuadmarkError('bad_option', `digit positions: ${digits.join(', ')} given, but H1, L1, H2, L2 go together`);
       }
-      const secret = crypto.getRandomValues(new Uint8Array(32));
-      return loader.call((api) =>
-        JSON.parse(unwrap(api.createKey({ ...params, secret, owner, payload: id ? 'id' : 'image' })).key));
+      return make({ ...params, payload: id ? 'id' : 'image' });
     },
 
     async parseKey(key) {

@@ -63,11 +63,19 @@ export function toImage(what, image) {
   return { width, height, bits: Array.isArray(bits) ? Uint8Array.from(bits) : toBytes(`${what}.bits`, bits) };
 }
 
+/** Well-formed text as it is. */
+export function toText(what, text) {
+  if (typeof text !== 'string' || /\p{Surrogate}/u.test(text)) {
+    throw new QuadmarkError('bad_option', `${what}: expected well-formed text`);
+  }
+  return text;
+}
+
 /** Hexadecimal text of up to 16 digits, or a bigint below 2^64 -> 16 lower-case digits. */
-export function toIdDigits(id) {
+export function toIdDigits(id, what = 'id') {
   const text = typeof id === 'bigint' && id >= 0n ? id.toString(16) : id;
   if (typeof text !== 'string' || !/^[0-9a-fA-F]{1,16}$/.test(text)) {
-    throw new QuadmarkError('bad_option', 'id: expected 1 to 16 hexadecimal digits or a bigint from 0 to 2^64 - 1');
+    throw new QuadmarkError('bad_option', `${what}: expected 1 to 16 hexadecimal digits or a bigint from 0 to 2^64 - 1`);
   }
   return text.toLowerCase().padStart(16, '0');
 }

@@ -47,8 +47,8 @@ export interface PaperParams {
   [name: string]: unknown;
 }
 
-/** Content of a key file. Secret: whoever has it can read, and forge, the mark. */
-export interface Key {
+/** Content of a key file of scheme `paper`. Secret: whoever has it can read, and forge, the mark. */
+export interface PaperKey {
   quadmark: 1;
   scheme: 'paper';
   /** Base64 of 32 random bytes. */
@@ -56,6 +56,16 @@ export interface Key {
   owner: string;
   params: PaperParams;
 }
+
+/** The same of scheme `robust`: what else it takes to read a mark is in the mark. */
+export interface RobustKey {
+  quadmark: 1;
+  scheme: 'robust';
+  secret: string;
+  owner: string;
+}
+
+export type Key = PaperKey | RobustKey;
 
 /** A key, or its file as text or bytes. */
 export type KeyInput = Key | string | Bytes;
@@ -74,6 +84,23 @@ export interface CallOptions {
   signal?: AbortSignal;
 }
 
+/** Options that keys of scheme `robust` take; with others they fail with `bad_option`. */
+export interface RobustOptions {
+  /** Names the asset: marks under different salts have nothing in common. Reading takes the same one. */
+  salt?: string;
+}
+
+export interface EmbedOptions extends CallOptions, RobustOptions {
+  /** How much the mark may change and withstand. Default "standard". */
+  strength?: 'invisible' | 'standard' | 'strong';
+  /** Cap on every vertex's displacement, fraction of the bounding-box diagonal; default: the strength's own. */
+  maxError?: number;
+  /** Cap on its part along the surface. */
+  maxSlide?: number;
+  /** Damage the marked model in six ways and report which it withstands. */
+  selfTest?: boolean;
+}
+
 /** Facts about what was done: the JSON object described in docs/format.md. */
 export interface Report {
   warnings: string[];
@@ -82,12 +109,14 @@ export interface Report {
 
 export interface EmbedRequest {
   key: KeyInput;
-  /** The picture to embed, of the key's size. Exactly one of `image` and `id`. */
+  /** The picture to embed: of the key's size, or with scheme `robust` up to 128 x 128. Exactly one of `image`, `id`, `text`. */
   image?: ImageInput;
-  /** A 64-bit ID, for keys made for IDs: 1 to 16 hexadecimal digits, or a bigint. */
+  /** A 64-bit ID: 1 to 16 hexadecimal digits, or a bigint. With scheme `paper` for keys made for IDs. */
   id?: string | bigint;
+  /** 1 to 64 bytes of UTF-8, scheme `robust` alone. Up to 8 bytes withstand as much as an ID. */
+  text?: string;
   resources?: Resources;
-  options?: CallOptions;
+  options?: EmbedOptions;
 }
 
 export interface EmbedResult {
@@ -105,8 +134,12 @@ export interface ExtractRequest {
   key: KeyInput;
   /** Compare with this image and let its agreement count for the verdict. */
   reference?: ImageInput;
+  /** Scheme `robust`: is it this ID? A mark too faint to be read may still be told; another ID is no match. */
+  expectId?: string | bigint;
+  /** The same for a text. At most one of `reference`, `expectId`, `expectText`. */
+  expectText?: string;
   resources?: Resources;
-  options?: CallOptions;
+  options?: CallOptions & RobustOptions;
 }
 
 export interface ExtractedImage extends BitImage {
@@ -125,9 +158,14 @@ export interface ExtractResult {
   verdict: 'match' | 'none' | 'inconclusive';
   /** Upper bound on the probability of this much agreement without this key's mark. */
   falsePositive: number;
-  image: ExtractedImage;
-  /** 16 hexadecimal digits, for ID keys with verdict "match"; else null. */
+  /** Always there for keys of scheme `paper`; null where a key of scheme `robust` found none. */
+  image: ExtractedImage | null;
+  /** 16 hexadecimal digits of an ID that was read with certainty; else null. */
   id: string | null;
+  /** A text that was read with certainty; else null. */
+  text: string | null;
+  /** Scheme `robust`: per vertex how much its votes agree with the mark, -1 to 1, 0 = no vote; else empty. */
+  evidence: Float32Array;
   report: Report;
 }
 
@@ -140,9 +178,16 @@ export function inspect(model: Bytes, request?: { resources?: Resources }): Prom
 /** URIs of the external buffers that a glTF needs as `resources`; empty for GLB and PLY. */
 export function externalUris(model: Bytes): Promise<string[]>;
 
-export interface KeyRequest {
+/** What a key of scheme `robust` needs: nothing but perhaps an owner. */
+export interface RobustKeyRequest {
+  owner?: string;
+  scheme: 'robust';
+}
+
+export interface PaperKeyRequest {
   /** Free text kept in the key file. */
   owner?: string;
+  /** The default. */
   scheme?: 'paper';
   /** Size of the image in pixels, 1 to 1024 a side ... */
   width?: number;
@@ -162,8 +207,11 @@ export interface KeyRequest {
   scrambleOrder?: boolean;
 }
 
+export type KeyRequest = PaperKeyRequest | RobustKeyRequest;
+
 /** Makes a key around 32 random bytes of the platform's generator. */
-export function createKey(request: KeyRequest): Promise<Key>;
+export function createKey(request: PaperKeyRequest): Promise<PaperKey>;
+export function createKey(request: RobustKeyRequest): Promise<RobustKey>;
 
 /** Checks a key and returns it in normal form; fails with `bad_key` or `unsupported_version`. */
 export function parseKey(key: KeyInput): Promise<Key>;

@@ -100,6 +100,10 @@ function differing(image, reference) {
 
 function showPictures(result) {
   const { image, reference, verdict, isId } = result;
+  if (image === null) {  // an ID, a text, or nothing, under a key that does not say which
+    for (const id of ['image-figure', 'confidence-figure', 'reference-figure']) $(id).hidden = true;
+    return;
+  }
   const unread = countOnes(image.erased);
   const size = `${image.width} by ${image.height} pixels`;
   $('pictures').classList.toggle('of-id', isId);
@@ -132,9 +136,9 @@ function showFacts(result) {
   const facts = [
     ['Key made for', result.owner || 'nobody in particular'],
     ['Cells that carry the reading', whole(report.cells)],
-    ['Pieces read', whole(report.piecesRead)],
-    ['Pixels not read', `${whole(countOnes(image.erased))} of ${whole(image.bits.length)}`],
-    ...(result.verdict === 'none' ? [] : [['Average confidence', percent(result.averageConfidence)]]),
+    ...(report.piecesRead === undefined ? [] : [['Pieces read', whole(report.piecesRead)]]),
+    ...(image === null ? [] : [['Pixels not read', `${whole(countOnes(image.erased))} of ${whole(image.bits.length)}`]]),
+    ...(result.verdict === 'none' || image === null ? [] : [['Average confidence', percent(result.averageConfidence)]]),
     ...(report.ber === undefined ? [] : [['Wrong bits against the reference', percent(report.ber)]]),
     ['False-positive probability, at most', result.falsePositive.toExponential(2)],
     ['Time', `${(result.millis / 1000).toFixed(2)} s`],
@@ -158,8 +162,9 @@ export function showResult(result, names) {
   $('verdict-files').textContent = [names.model, names.key, result.owner && `key of ${result.owner}`].filter(Boolean).join(' · ');
   showOdds(result.falsePositive);
   $('odds-meaning').textContent = words.meaning;
-  $('found-id').hidden = result.id === null;
-  $('id-text').textContent = result.id ?? '';
+  const found = result.id ?? result.text;
+  $('found-id').hidden = found === null;
+  $('id-text').textContent = found ?? '';
   showPictures(result);
   showFacts(result);
   $('warnings').replaceChildren(...result.report.warnings.map((warning) => {
@@ -171,7 +176,7 @@ export function showResult(result, names) {
 
   const stem = names.model.replace(/\.[^.]*$/, '');
   $('save-image').hidden = result.isId;
-  $('save-image').href = urlOf(result.image.png, 'image/png');
+  if (result.image !== null) $('save-image').href = urlOf(result.image.png, 'image/png');
   $('save-image').download = `${stem}.mark.png`;
   $('save-report').href = urlOf(`${JSON.stringify(result.report, null, 2)}\n`, 'application/json');
   $('save-report').download = `${stem}.report.json`;

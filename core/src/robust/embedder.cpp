@@ -96,6 +96,16 @@ std::uint32_t countSet(const std::vector<std::uint8_t>& flags) {
 
 }  // namespace
 
+const char* strengthName(Strength strength) {
+  return strength == Strength::invisible ? "invisible" : strength == Strength::standard ? "standard" : "strong";
+}
+
+Result<Strength> strengthFrom(std::string_view name) {
+  for (const Strength strength : {Strength::invisible, Strength::standard, Strength::strong})
+    if (name == strengthName(strength)) return strength;
+  return Error{ErrorCode::badOption, "strength: expected \"invisible\", \"standard\" or \"strong\""};
+}
+
 Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payload, const RobustKeys& keys,
                                     const EmbedOptions& options) {
   if (payload.head.empty()) return Error{ErrorCode::badOption, "payload: the head is empty"};

@@ -40,16 +40,16 @@ export async function embedCommand(files, options, output) {
   let jobs, writer, request;
   try {
     jobs = planJobs(files, options, output);
-    if ((options.image === undefined) === (options.id === undefined)) {
-      throw new QuadmarkError('bad_option', 'give exactly one of --image and --id');
+    if ([options.image, options.id, options.text].filter((given) => given !== undefined).length !== 1) {
+      throw new QuadmarkError('bad_option', 'give exactly one of --image, --id and --text');
     }
     if ([options.key, options.image, ...jobs.map((job) => job.input)].filter((name) => name === '-').length > 1) {
       throw new QuadmarkError('bad_option', 'standard input can be read only once');
     }
     const key = await readKey(options);
-    request = options.image === undefined
-      ? { key, id: options.id }
-      : { key, image: await readInput(options.image, 'cannot read the image') };
+    const { id, text, strength, maxError, maxSlide, salt, selfTest } = options;
+    request = { key, id, text, options: { strength, maxError, maxSlide, salt, selfTest } };
+    if (options.image !== undefined) request.image = await readInput(options.image, 'cannot read the image');
     const names = [options.key, options.image, ...jobs.map((job) => job.input)].filter((name) => name !== undefined);
     writer = new Writer(options.force, names);
     if (options.outDir !== undefined) makeDirectory(options.outDir);
@@ -74,7 +74,7 @@ async function embedOne({ input, output: out }, image, request, writer, output, 
   const { bytes, resources, report } = await naming(image, ['bad_image'], embed(model.bytes, {
     ...request,
     resources: model.resources,
-    options: { onProgress: output.onProgress },
+    options: { ...request.options, onProgress: output.onProgress },
   }));
   const files = [];
   for (const { uri, path, image } of beside.files) {
@@ -145,9 +145,15 @@ function describe(input, out, report, beside) {
   const { scheme, cells, capacityBits, payloadBits, repeats, distortion } = report;
   const number = (value, digits) => (typeof value === 'number' ? value.toFixed(digits) : 'infinite');
   const lines = [`${displayName(input)} -> ${displayOutput(out)}`];
+  if (report.capacityClass !== undefined) {
+    lines.push(`  ${report.payload} at strength ${report.strength}, capacity ${report.capacityClass}`);
+  }
   lines.push(`  scheme ${scheme}: ${payloadBits} bits, each repeated ${describeRepeats(repeats)} times, in ${cells} cells (capacity ${capacityBits} bits)`);
   if (distortion) {
     lines.push(`  SNR ${number(distortion.snrDb, 1)} dB, largest displacement ${(distortion.maxRel * 100).toPrecision(2)} % of the diagonal`);
+  }
+  for (const [name, { read }] of Object.entries(report.selfTest ?? {})) {
+    lines.push(`  after ${name}: ${read ? 'read' : 'not read'}`);
   }
   for (const { path } of beside) lines.push(`  with ${path}`);
   return lines;

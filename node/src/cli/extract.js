@@ -28,7 +28,7 @@ export async function extractCommand(files, options, output) {
       throw new QuadmarkError('bad_option', 'standard input can be read only once');
     }
     const key = await readKey(options);
-    request = { key };
+    request = { key, expectId: options.expectId, expectText: options.expectText, options: { salt: options.salt } };
     if (options.reference !== undefined) request.reference = await readInput(options.reference, 'cannot read the reference');
     writer = new Writer(options.force, names);
     if (options.outDir !== undefined) makeDirectory(options.outDir);
@@ -61,15 +61,19 @@ async function extractOne(input, options, request, writer, output, extract) {
   const start = performance.now();
   const pictures = picturesOf(input, options, writer);
   const { bytes, resources } = await readModelFile(input);
-  const result = await naming(options.reference, ['bad_image'],
-    extract(bytes, { ...request, resources, options: { onProgress: output.onProgress } }));
-  writer.writeAll(pictures.map(({ path, of }) => ({ path, bytes: result.image[of] })));
+  const result = await naming(options.reference, ['bad_image'], extract(bytes, {
+    ...request, resources, options: { ...request.options, onProgress: output.onProgress },
+  }));
+  const warnings = [...result.report.warnings];
+  const found = result.image ? pictures : [];
+  if (found.length < pictures.length) warnings.push('no image was found, so none was written');
+  writer.writeAll(found.map(({ path, of }) => ({ path, bytes: result.image[of] })));
   const millis = millisSince(start);
   return () => {
     output.result(
-      { input, ...result.report, millis },
-      describe(input, result, pictures),
-      pictures.some(({ path }) => path === '-') ? process.stderr : process.stdout);
+      { input, ...result.report, warnings, millis },
+      describe(input, result, found),
+      found.some(({ path }) => path === '-') ? process.stderr : process.stdout);
     return exitOfVerdict(result.verdict);
   };
 }
@@ -80,14 +84,18 @@ const SENTENCES = {
   inconclusive: 'traces that could be chance',
 };
 
-function describe(input, { verdict, falsePositive, image, id, report }, pictures) {
-  const erased = image.erased.reduce((sum, value) => sum + value, 0);
+function describe(input, { verdict, falsePositive, image, id, text, report }, pictures) {
+  const sentence = report.expected?.comparison === 'differs' ? 'a mark of this key, but another one' : SENTENCES[verdict];
   const lines = [
-    `${displayName(input)}: ${verdict} (${SENTENCES[verdict]})`,
+    `${displayName(input)}: ${verdict} (${sentence})`,
     `  probability of this without the mark: at most ${falsePositive.toPrecision(2)}`,
   ];
   if (id !== null) lines.push(`  ID ${id}`);
-  lines.push(`  ${image.width} x ${image.height} bits, ${erased} unread`);
+  if (text !== null) lines.push(`  text ${JSON.stringify(text)}`);
+  if (image !== null) {
+    const erased = image.erased.reduce((sum, value) => sum + value, 0);
+    lines.push(`  ${image.width} x ${image.height} bits, ${erased} unread`);
+  }
   if (typeof report.ber === 'number') lines.push(`  bit error rate against the reference: ${report.ber.toFixed(4)}`);
   for (const { path } of pictures) if (path !== '-') lines.push(`  wrote ${path}`);
   return lines;

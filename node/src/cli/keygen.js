@@ -20,10 +20,25 @@ async function payloadOf({ image, size, idBits }) {
   return { id: true };
 }
 
+/** A key of scheme robust fits every payload: options that say otherwise are a mistake. */
+function refusePaperOptions(options) {
+  const names = { image: '--image', size: '--size', idBits: '--id-bits', firstDigit: '--first-digit', keyedCells: '--keyed-cells', set: '--set' };
+  for (const [member, name] of Object.entries(names)) {
+    if (options[member] !== undefined) throw new QuadmarkError('bad_option', `${name} does not go with --scheme robust`);
+  }
+  return {};
+}
+
+function describe({ scheme, params }, payload) {
+  if (scheme === 'robust') return 'IDs, texts and images, scheme robust';
+  const what = payload.id ? 'a 64-bit ID' : `an image of ${params.width} x ${params.height} pixels`;
+  return `${what}, scheme ${scheme}, digits ${params.L1}-${params.H1} and ${params.L2}-${params.H2}`;
+}
+
 export async function keygenCommand(path, options, output) {
   try {
     if (path === '-' && output.json) throw new QuadmarkError('bad_option', 'the key and --json both want standard output');
-    const payload = await payloadOf(options);
+    const payload = options.scheme === 'robust' ? refusePaperOptions(options) : await payloadOf(options);
     const writer = new Writer(options.force, options.image === undefined ? [] : [options.image]);
     const target = writer.check(path, 'the key');
     const request = { owner: options.owner, scheme: options.scheme, ...payload, ...checkSettings(options.set, ['L']) };
@@ -33,10 +48,9 @@ export async function keygenCommand(path, options, output) {
     // Whoever reads the key can read and forge marks: for the owner of the file alone.
     writer.writeAll([{ path: target, bytes: Buffer.from(`${JSON.stringify(key, null, 2)}\n`), mode: 0o600 }]);
     const { scheme, owner, params } = key;
-    const what = payload.id ? 'a 64-bit ID' : `an image of ${params.width} x ${params.height} pixels`;
     output.result(
       { output: path, scheme, owner, params, warnings: [] },
-      [`${path}: key for ${what}, scheme ${scheme}, digits ${params.L1}-${params.H1} and ${params.L2}-${params.H2}`,
+      [`${path}: key for ${describe(key, payload)}`,
         'Keep it secret and keep a copy: the mark can be neither read nor proved without it.'],
       path === '-' ? process.stderr : process.stdout);
     return EXIT.done;

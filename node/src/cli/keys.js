@@ -27,6 +27,7 @@ export async function readKey(options) {
     throw new QuadmarkError('bad_key', `the key is for scheme ${JSON.stringify(key.scheme)}, not ${JSON.stringify(options.scheme)}`);
   }
   if (Object.keys(settings).length === 0) return key;
+  if (key.scheme !== 'paper') throw new QuadmarkError('bad_option', `--set does not go with a key of scheme ${key.scheme}`);
   try {
     return await parseKey({ ...key, params: { ...key.params, ...settings } });
   } catch (error) {

@@ -2,6 +2,7 @@
 // The command line's grammar. What each command does is in its own file, over the library's public calls.
 import { Command, CommanderError, InvalidArgumentError, Option } from 'commander';
 import { readFileSync } from 'node:fs';
+import { DEFAULT_SCHEME } from '../api.js';
 import { attackCommand } from './attack.js';
 import { embedCommand } from './embed.js';
 import { EXIT } from './exit.js';
@@ -78,7 +79,7 @@ export async function run(argv) {
   define('keygen', 'make a key file', keygenCommand)
     .argument('<key.json>', 'where to write the key')
     .option('--owner <text>', 'who the mark is for; kept in the key file', '')
-    .option('--scheme <scheme>', 'watermarking scheme', 'paper')
+    .option('--scheme <scheme>', 'watermarking scheme: paper or robust', DEFAULT_SCHEME)
     .option('--image <logo.png>', 'make the key for images of this one\'s size')
     .option('--size <WxH>', 'make the key for images of this size in pixels', parseSize)
     .option('--id-bits <bits>', 'make the key for IDs of this length; only 64', parseWhole)
@@ -90,8 +91,14 @@ export async function run(argv) {
   define('embed', 'mark models', embedCommand)
     .argument('<files...>', 'IN OUT, or many inputs and globs with --out-dir')
     .addOption(keyOption())
-    .option('--image <logo.png>', 'picture to embed, of the key\'s size')
+    .option('--image <logo.png>', 'picture to embed; with scheme paper of the key\'s size')
     .option('--id <hex>', '64-bit ID to embed, 1 to 16 hexadecimal digits')
+    .option('--text <text>', 'text to embed, up to 64 bytes (scheme robust, like the next five)')
+    .option('--strength <preset>', 'invisible, standard or strong')
+    .option('--max-error <share>', 'largest displacement, fraction of the diagonal', parseNumber)
+    .option('--max-slide <share>', 'largest displacement along the surface, fraction of the diagonal', parseNumber)
+    .option('--salt <text>', 'name of the asset; extract takes the same one')
+    .option('--self-test', 'damage the marked model in six ways and report which it withstands')
     .option('--scheme <scheme>', 'fail unless the key is for this scheme')
     .option('--out-dir <dir>', 'write each marked model here under its own name')
     .option(...jobs)
@@ -102,6 +109,9 @@ export async function run(argv) {
     .argument('<files...>', 'models or globs')
     .addOption(keyOption())
     .option('--reference <logo.png>', 'compare with this picture')
+    .option('--expect-id <hex>', 'is it this ID? (scheme robust, like the next two)')
+    .option('--expect-text <text>', 'is it this text?')
+    .option('--salt <text>', 'name of the asset, as given to embed')
     .option('--image-out <mark.png>', 'write the picture that was read')
     .option('--confidence-out <map.png>', 'write how certain each pixel is')
     .option('--out-dir <dir>', 'write both pictures of each model here as NAME.mark.png and NAME.confidence.png')

@@ -71,7 +71,7 @@ async function check({ model, key, reference, parts }) {
   if (missing.length > 0) return { type: 'missing', uris: missing };
 
   const started = performance.now();
-  const { verdict, falsePositive, image, id, report } = await attempt('model', extract(bytes, {
+  const { verdict, falsePositive, image, id, text, report } = await attempt('model', extract(bytes, {
     key: keyObject,
     reference: expected ?? undefined,
     resources,
@@ -79,11 +79,11 @@ async function check({ model, key, reference, parts }) {
   }));
   const millis = Math.round(performance.now() - started);
   let average = 0;
-  for (const value of image.confidence) average += value / image.confidence.length;
+  for (const value of image?.confidence ?? []) average += value / image.confidence.length;
   return {
     type: 'result',
-    verdict, falsePositive, image, id, millis,
-    isId: keyObject.params.payload === 'id',
+    verdict, falsePositive, image, id, text, millis,
+    isId: image === null || keyObject.params?.payload === 'id',
     owner: keyObject.owner,
     averageConfidence: average,
     reference: expected && { ...expected, png: await encodeImage(expected) },

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "quadmark/mesh.h"
@@ -12,6 +13,10 @@
 namespace quadmark::robust {
 
 enum class Strength : std::uint8_t { invisible, standard, strong };
+
+/// By its name: "invisible", "standard" or "strong". Fails with badOption.
+[[nodiscard]] Result<Strength> strengthFrom(std::string_view name);
+[[nodiscard]] const char* strengthName(Strength strength);
 
 struct EmbedOptions {
   Strength strength = Strength::standard;
