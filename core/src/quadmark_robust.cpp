@@ -178,7 +178,7 @@ Result<EmbedResponse> embedRobustFile(std::span<const std::uint8_t> file, const 
     tests = robust::selfTest(after, marked->bits, *keys);
   }
   if (!tell(request.progress, "report", 0.97)) return cancelled();
-  const Distortion measured = distortion(mesh, marked->embedding.positions, weld(mesh));
+  const Distortion measured = distortion(mesh, marked->embedding.positions, weld(mesh), boundingDiagonal(mesh));
 
   EmbedResponse response;
   auto patched = (*model)->patch(file, resources, marked->embedding.positions);
