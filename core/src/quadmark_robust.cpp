@@ -78,6 +78,8 @@ Result<Marked> markMesh(const Mesh& mesh, const Payload& payload, const SchemeKe
     marked.embedding = std::move(*embedding);
     Mesh after = mesh;
     after.positions = marked.embedding.positions;
+    roundToPrecision(after);  // integer grids are coarser than what the layers round to
+    marked.embedding.positions = after.positions;
     if (!tell(request.progress, "verify", 0.9)) return cancelled();
     marked.unattacked = robust::readBack(after, marked.bits, keys);
     if (marked.unattacked.read) break;
