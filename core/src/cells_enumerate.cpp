@@ -124,7 +124,10 @@ void forEachCoplanarSet(const WeldedMesh& welded, const std::vector<double>& pos
       for (std::uint32_t w : members) unit = std::max(unit, rounding.halfStep[w]);
     const double reach = std::min(limit.units * unit, std::max(kExactUnits * unit, limit.relative * longest));
     const double largest = 1.0001 * reach * 4 * radius2;
-    ring.forEach(largest, [&](int a, int b, int c, int d, double) {
+    ring.forEach(largest, [&](int a, int b, int c, int d, double determinant) {
+      // Then with the set's own size instead of the ball's. On fine meshes, whose triangles are hardly larger than the
+      // rounding unit, this spares three of four sets the search among those seen before.
+      if (determinant * determinant > 4.001 * reach * reach * ring.largestNormal2(a, b, c, d)) return;
       std::uint32_t ids[4] = {ring.vertex(a), ring.vertex(b), ring.vertex(c), ring.vertex(d)};
       if (ownerOf != nullptr && haveOneOwner(ids, *ownerOf)) return;
       sortFour(ids);

@@ -65,6 +65,16 @@ class RingSets {
     return k == kSeed ? seedNormal2_[choose2(j) + i] : normal2_[choose3(k) + choose2(j) + i];
   }
 
+  /// The largest 4 area^2 among the four triangles of a set i < j < k < l, l may be kSeed. The normals of two triangles
+  /// add up to the product of the diagonals, so that product is at most twice the square root of this.
+  [[nodiscard]] double largestNormal2(int i, int j, int k, int l) const {
+    const int ij = choose2(j) + i, ik = choose2(k) + i, jk = choose2(k) + j;
+    const double first = squaredSum(ij, jk, ik);
+    if (l == kSeed) return std::max(first, std::max(squaredPair(ij), std::max(squaredPair(ik), squaredPair(jk))));
+    const int il = choose2(l) + i, jl = choose2(l) + j, kl = choose2(l) + k;
+    return std::max(std::max(first, squaredSum(ij, jl, il)), std::max(squaredSum(ik, kl, il), squaredSum(jk, kl, jl)));
+  }
+
   /// Calls visit(i, j, k, l, determinant) for every set i < j < k < l with |determinant| <= limit; l may be kSeed.
   template <class Visit>
   void forEach(double limit, const Visit& visit) const {
@@ -83,6 +93,12 @@ class RingSets {
       case 7: return algorithm(std::integral_constant<int, 7>{});
       default: return algorithm(count);
     }
+  }
+
+  [[nodiscard]] double squaredPair(int ij) const { return cx_[ij] * cx_[ij] + cy_[ij] * cy_[ij] + cz_[ij] * cz_[ij]; }
+  [[nodiscard]] double squaredSum(int ij, int jk, int ik) const {
+    const double x = cx_[ij] + cx_[jk] - cx_[ik], y = cy_[ij] + cy_[jk] - cy_[ik], z = cz_[ij] + cz_[jk] - cz_[ik];
+    return x * x + y * y + z * z;
   }
 
   template <class Count>
