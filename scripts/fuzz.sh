@@ -48,9 +48,13 @@ for target in "${targets[@]}"; do
   [ $short = no ] || corpus=build/fuzz/short/$target
   [ $short = no ] || rm -rf "$corpus"
   mkdir -p "$corpus" "build/fuzz/found/$target"
-  options=(-runs="$count" -max_len=8192 -timeout=20 -rss_limit_mb=2048 -print_final_stats=1
+  # Marking searches and repairs for long where a tangled mesh has hardly room for the mark: up to two minutes with
+  # sanitizers. Nothing else may take that long.
+  slowest=20
+  [ "$target" != mesh ] || slowest=400
+  options=(-runs="$count" -max_len=8192 -timeout=$slowest -rss_limit_mb=2048 -print_final_stats=1
            -artifact_prefix="build/fuzz/found/$target/")
-  [ $short = no ] || options+=(-seed=1)
+  [ $short = no ] || options+=(-seed=1 -max_total_time=40)
   dictionary=native_tests/fuzz/$target.dict
   [ ! -f "$dictionary" ] || options+=(-dict="$dictionary")
   folders=("$corpus" "build/fuzz/seeds/$target")
