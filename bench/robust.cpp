@@ -26,6 +26,7 @@
 #include "quadmark/robust/frame.h"
 #include "quadmark/robust/keys.h"
 #include "quadmark/robust/mark.h"
+#include "quadmark/robust/mesh_source.h"
 #include "quadmark/robust/reader.h"
 #include "robust_attacks.h"
 #include "surface_rms.h"
@@ -61,20 +62,6 @@ SchemeKeys keysOf(int number) {
   return deriveKeys(secret, "").value();
 }
 
-class ReaderSource : public RatioSource {
- public:
-  explicit ReaderSource(MeshReader& reader) : reader_(reader) {}
-  bool search(const AcceptHead& accept) override { return reader_.search({}, accept); }
-  [[nodiscard]] std::vector<Hypothesis> plan() const override { return MeshReader::hypotheses({}); }
-  std::vector<float> headRatios(const Hypothesis& h) override { return reader_.headRatios(h); }
-  std::vector<float> bodyRatios(const Hypothesis& h, const StreamCode& b) override { return reader_.bodyRatios(h, b); }
-  Agreement ringAgreement(const CodedPayload& e, double s) override { return reader_.ringAgreement(e, s); }
-  [[nodiscard]] bool couldHaveRead() const override { return true; }
-
- private:
-  MeshReader& reader_;
-};
-
 struct Score {
   int read = 0, verified = 0, wrong = 0;
   std::set<char> layers;
@@ -102,7 +89,7 @@ double cpuSeconds() {
 void readBack(const Mesh& damaged, const SchemeKeys& keys, std::uint64_t id, Score& score, Times& times) {
   const double start = cpuSeconds();
   MeshReader reader(damaged, keys.geometry, headCode());
-  ReaderSource source(reader);
+  MeshSource source(reader);
   const auto reading = readMark(source, {.keys = keys, .expected = Payload{id}});
   times.read += cpuSeconds() - start;
   times.readVertices += static_cast<double>(damaged.vertexCount());

@@ -17,17 +17,10 @@
 #include "robust/lattice.h"
 #include "robust/surface.h"
 #include "robust/survival.h"
+#include "robust_geometry_keys.h"
 
 namespace quadmark::robust {
 namespace {
-
-RobustKeys keysOf(std::uint64_t seed) {
-  RobustKeys keys;
-  Random random(seed);
-  for (SubKey* key : {&keys.select, &keys.dither, &keys.constellation, &keys.assignment, &keys.share})
-    for (std::uint8_t& byte : *key) byte = static_cast<std::uint8_t>(random.next() >> 56);
-  return keys;
-}
 
 // Every face of a mesh turned over: what a tool does that bakes a mirroring transform.
 Mesh turnedOver(Mesh mesh) {

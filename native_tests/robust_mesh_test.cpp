@@ -9,17 +9,10 @@
 #include "quadmark/random.h"
 #include "quadmark/robust/embedder.h"
 #include "quadmark/robust/reader.h"
+#include "robust_geometry_keys.h"
 
 namespace quadmark::robust {
 namespace {
-
-RobustKeys keysOf(std::uint64_t seed) {
-  RobustKeys keys;
-  Random random(seed);
-  for (SubKey* key : {&keys.select, &keys.dither, &keys.constellation, &keys.assignment, &keys.share})
-    for (std::uint8_t& byte : *key) byte = static_cast<std::uint8_t>(random.next() >> 56);
-  return keys;
-}
 
 CodedPayload payloadOf(std::uint64_t seed, int bodyBits = 0) {
   CodedPayload out;

@@ -41,12 +41,12 @@ void sortFour(std::uint32_t ids[4]) {
   order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
 }
 
+}  // namespace
+
 bool haveOneOwner(const std::uint32_t ids[4], const std::vector<std::uint32_t>& ownerOf) {
   const std::uint32_t owner = ownerOf[ids[0]];
   return owner != kNoVertex && ownerOf[ids[1]] == owner && ownerOf[ids[2]] == owner && ownerOf[ids[3]] == owner;
 }
-
-}  // namespace
 
 double Rounding::unit(const double* const points[4], double longerDiagonal, double gridHalfStep) const {
   double magnitude = 0;

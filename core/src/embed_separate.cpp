@@ -93,8 +93,8 @@ void Embedder::breakSet(const Quad& set, std::uint64_t salt, std::vector<std::ui
 }
 
 bool Embedder::isCell(const Quad& set) const {
-  const std::uint32_t cell = cellOf_[set.a];
-  return cell != kNoVertex && cellOf_[set.b] == cell && cellOf_[set.c] == cell && cellOf_[set.d] == cell;
+  const std::uint32_t ids[4] = {set.a, set.b, set.c, set.d};
+  return haveOneOwner(ids, cellOf_);
 }
 
 void Embedder::separate() {

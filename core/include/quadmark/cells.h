@@ -64,6 +64,10 @@ struct GapLimit {
   }
 };
 
+/// Have four vertices the same owner?
+/// @param ownerOf  per vertex, kNoVertex for none.
+[[nodiscard]] bool haveOneOwner(const std::uint32_t ids[4], const std::vector<std::uint32_t>& ownerOf);
+
 /// Calls visit for every convex four-point set of the neighbourhoods that the limit admits, each set once, in an order
 /// that depends on vertex numbers.
 /// @param welded     connectivity.
