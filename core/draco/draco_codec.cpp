@@ -95,9 +95,11 @@ bool convertValues(const draco::PointAttribute& attribute, const DracoAttribute&
   }
 }
 
-/// Whether every value that the attribute's own tables lead to lies in its buffer.
+/// Whether every value that the attribute's own tables lead to lies in its buffer. Booleans are refused: glTF knows none,
+/// and the decoder does not look whether the byte of one is 0 or 1.
 bool isSound(const draco::PointAttribute& attribute, std::uint32_t pointCount) {
   const draco::DataBuffer* buffer = attribute.buffer();
+  if (attribute.data_type() == draco::DT_BOOL) return false;
   if (buffer == nullptr || attribute.byte_stride() <= 0 || attribute.byte_offset() < 0) return false;
   if (!attribute.is_mapping_identity() && attribute.indices_map_size() < pointCount) return false;
   const auto stride = static_cast<std::uint64_t>(attribute.byte_stride());
