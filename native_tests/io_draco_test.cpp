@@ -140,27 +140,6 @@ TEST(DecodeDraco, GivesAttributesAsAsked) {
             "here: attribute 1 of the Draco data has 2 components, expected 3");
 }
 
-/// The grid in a GLB, its triangles compressed; a second primitive and a fallback if wanted.
-struct DracoGrid {
-  std::string json =
-      R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_unlit","KHR_draco_mesh_compression"],
- "extensionsRequired":["KHR_draco_mesh_compression"],"buffers":[{"byteLength":BIN}],
- "bufferViews":[{"buffer":0,"byteLength":STREAM}],
- "accessors":[{"componentType":5126,"count":9,"type":"VEC3","min":[0,0,-1],"max":[2,2,0.75]},
-  {"componentType":5123,"count":24,"type":"SCALAR"},{"componentType":5126,"count":9,"type":"VEC2"}],
- "meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":2},"indices":1,"mode":4,"extensions":{
-  "KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0,"TEXCOORD_0":1}}, "EXT_other":{}}}]}]})";
-  FileBytes bin = sequentialGrid();
-
-  FileBytes glb() const {
-    FileBytes padded = bin;
-    while (padded.size() % 4 != 0) padded.push_back(0);
-    const std::string text =
-        replaced(replaced(json, "BIN", std::to_string(padded.size())), "STREAM", std::to_string(bin.size()));
-    return makeGlb(text, padded);
-  }
-};
-
 TEST(DracoGltf, IsReadAsThePlainOne) {
   const auto model = readModel(DracoGrid{}.glb());
   ASSERT_TRUE(model.ok()) << model.error().message;

@@ -98,6 +98,10 @@ std::vector<FileBytes> gltfSeeds() {
                                   bytesOf(gridGltf("\"uri\":\"data:;base64," + base64(gridGltf().bin) + "\",").json),
                                   manyFeatures()};
   for (FileBytes& file : quantizedAndSparse()) files.push_back(std::move(file));
+  files.push_back(DracoGrid{}.glb());
+  DracoGrid edgebreaker;
+  edgebreaker.bin = edgebreakerGrid();
+  files.push_back(edgebreaker.glb());
   for (const char* vertices : {"vertex codec 0", "vertex codec 1", "exponential filter"}) {
     for (const char* indices : {"triangles", "indices"}) {
       files.push_back(meshoptGrid("EXT_meshopt_compression", vertices, indices).glb());
