@@ -66,7 +66,10 @@ Problem patch(const Model& model, Bytes file, const Resources& resources) {
   roundToPrecision(moved);
   const Result<PatchedFile> patched = model.patch(file, resources, moved.positions);
   if (!patched.ok()) {
-    const bool refused = patched.error().code == ErrorCode::unsupportedFile;
+    // Reading needs the positions alone; patching takes every attribute out of the compressed stream.
+    const bool isDraco = io::asText(file).find("KHR_draco_mesh_compression") != std::string_view::npos;
+    const ErrorCode code = patched.error().code;
+    const bool refused = code == ErrorCode::unsupportedFile || (isDraco && code == ErrorCode::badFile);
     return refused ? "" : "read, but not patched: " + patched.error().message;
   }
   Resources changed = resources;

@@ -100,6 +100,7 @@ std::vector<FileBytes> gltfSeeds() {
   for (FileBytes& file : quantizedAndSparse()) files.push_back(std::move(file));
   files.push_back(DracoGrid{}.glb());
   DracoGrid edgebreaker;
+  edgebreaker.json = replaced(replaced(edgebreaker.json, ",\"TEXCOORD_0\":2", ""), ",\"TEXCOORD_0\":1", "");
   edgebreaker.bin = edgebreakerGrid();
   files.push_back(edgebreaker.glb());
   for (const char* vertices : {"vertex codec 0", "vertex codec 1", "exponential filter"}) {
