@@ -10,27 +10,6 @@
 namespace quadmark::robust {
 namespace {
 
-// Faces around each welded vertex.
-struct FacesOf {
-  std::vector<std::uint32_t> offsets, faces;
-  explicit FacesOf(const Surface& surface) : offsets(surface.vertexCount() + 1, 0), faces(surface.corners.size()) {
-    for (const std::uint32_t v : surface.corners) ++offsets[v + 1];
-    for (std::size_t v = 1; v < offsets.size(); ++v) offsets[v] += offsets[v - 1];
-    std::vector<std::uint32_t> cursor(offsets.begin(), offsets.end() - 1);
-    for (std::uint32_t f = 0; f < surface.faceCount(); ++f)
-      for (const std::uint32_t v : surface.face(f)) faces[cursor[v]++] = f;
-  }
-};
-
-// Twice the area vector of a face (Newell's, for polygons).
-Vec3 areaVector(std::span<const std::uint32_t> face, const std::vector<double>& positions) {
-  const Vec3 origin = at(positions, face[0]);
-  Vec3 sum;
-  for (std::size_t k = 1; k + 1 < face.size(); ++k)
-    sum += cross(at(positions, face[k]) - origin, at(positions, face[k + 1]) - origin);
-  return sum;
-}
-
 std::vector<std::uint8_t> sharpVertices(const std::vector<double>& positions, const std::vector<Diamond>& diamonds,
                                         double cosine) {
   std::vector<std::uint8_t> sharp(positions.size() / 3, 0);
@@ -44,9 +23,9 @@ std::vector<std::uint8_t> sharpVertices(const std::vector<double>& positions, co
 
 class Writer {
  public:
-  Writer(const Surface& surface, const DiamondLimits& limits, std::vector<std::uint8_t>& occupied,
-         std::vector<double>& positions)
-      : surface_(surface), limits_(limits), occupied_(occupied), positions_(positions), facesOf_(surface) {}
+  Writer(const Surface& surface, const FacesAround& facesAround, const DiamondLimits& limits,
+         std::vector<std::uint8_t>& occupied, std::vector<double>& positions)
+      : surface_(surface), facesAround_(facesAround), limits_(limits), occupied_(occupied), positions_(positions) {}
 
   [[nodiscard]] bool free(const Diamond& q) const {
     return occupied_[q.a] == 0 && occupied_[q.b] == 0 && occupied_[q.c] == 0 && occupied_[q.d] == 0;
@@ -72,8 +51,9 @@ class Writer {
     }
     bool bad = farthest > limits_.maxMove || slide > limits_.maxSlide;
     for (int k = 0; k < 4 && !bad; ++k)
-      for (std::uint32_t i = facesOf_.offsets[vertex[k]]; i < facesOf_.offsets[vertex[k] + 1] && !bad; ++i) {
-        const auto face = surface_.face(facesOf_.faces[i]);
+      for (const std::uint32_t f : facesAround_.of(vertex[k])) {
+        if (bad) break;
+        const auto face = surface_.face(f);
         const Vec3 before = areaVector(face, surface_.welded.positions), after = areaVector(face, positions_);
         bad = dot(before, after) < limits_.turnCosine * length(before) * length(after);
       }
@@ -87,10 +67,10 @@ class Writer {
 
  private:
   const Surface& surface_;
+  const FacesAround& facesAround_;
   const DiamondLimits& limits_;
   std::vector<std::uint8_t>& occupied_;
   std::vector<double>& positions_;
-  FacesOf facesOf_;
 };
 
 std::vector<Candidate> findCandidates(const Surface& surface, const std::vector<double>& positions,
@@ -116,13 +96,13 @@ std::vector<Candidate> findCandidates(const Surface& surface, const std::vector<
 
 }  // namespace
 
-DiamondEmbedding embedDiamonds(const Surface& surface, const std::vector<Diamond>& diamonds,
-                               const Constellation& constellation, const CodedPayload& payload,
+DiamondEmbedding embedDiamonds(const Surface& surface, const FacesAround& facesAround,
+                               const std::vector<Diamond>& diamonds, const Constellation& constellation, const CodedPayload& payload,
                                const DiamondLimits& limits, std::vector<std::uint8_t>& occupied,
                                std::vector<double>& positions) {
   DiamondEmbedding out;
   const DeltaClass& shape = constellation.shape();
-  Writer writer(surface, limits, occupied, positions);
+  Writer writer(surface, facesAround, limits, occupied, positions);
   std::vector<Candidate> candidates = findCandidates(surface, positions, diamonds, shape, limits, writer);
 
   // 1. The good fine cells: those whose meaning is what the payload says.

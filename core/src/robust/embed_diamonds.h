@@ -38,8 +38,8 @@ struct DiamondEmbedding {
 /// @param original   positions before any embedding: what faces must not turn away from.
 /// @param occupied   per welded vertex: 1 = not to be moved; receives the vertices of the cells.
 /// @param positions  changed in place.
-[[nodiscard]] DiamondEmbedding embedDiamonds(const Surface& surface, const std::vector<Diamond>& diamonds,
-                                             const Constellation& constellation, const CodedPayload& payload,
+[[nodiscard]] DiamondEmbedding embedDiamonds(const Surface& surface, const FacesAround& facesAround,
+                                             const std::vector<Diamond>& diamonds, const Constellation& constellation, const CodedPayload& payload,
                                              const DiamondLimits& limits, std::vector<std::uint8_t>& occupied,
                                              std::vector<double>& positions);
 

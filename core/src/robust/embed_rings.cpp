@@ -63,13 +63,13 @@ double chooseRingStep(const Carriers& carriers, const std::vector<double>& posit
 
 std::vector<std::uint32_t> embedRings(const Carriers& carriers, const RingCode& code, const CodedPayload& payload,
                                       const SymmetricTensor& tensor, const RingLimits& limits,
-                                      std::vector<double>& positions) {
+                                      const std::vector<std::uint8_t>& dropped, std::vector<double>& positions) {
   const Sharing sharing = payload.hasBody() ? Sharing::split : Sharing::headOnly;
   std::vector<std::uint32_t> written;
   for (std::uint32_t i = 0; i < carriers.count(); ++i) {
     const auto ring = carriers.ring(i);
     RingFrame frame;
-    if (!ringFrame(positions, ring, tensor, frame)) continue;
+    if (dropped[i] != 0 || !ringFrame(positions, ring, tensor, frame)) continue;
     const Vec3 from = at(positions, carriers.vertex[i]);
     RingCoordinates p = coordinatesIn(frame, from);
     if (std::fabs(p.alpha) > limits.maxCoordinate || std::fabs(p.beta) > limits.maxCoordinate) continue;

@@ -26,9 +26,12 @@ struct RingLimits {
                                     const SymmetricTensor& tensor, double diagonal);
 
 /// Moves carriers of `positions` in place; the lattice coordinates change, the third one follows the old surface.
+/// @param dropped  one flag per carrier: 1 = leave it alone.
 /// @return the carriers written, ascending.
 [[nodiscard]] std::vector<std::uint32_t> embedRings(const Carriers& carriers, const RingCode& code,
                                                     const CodedPayload& payload, const SymmetricTensor& tensor,
-                                                    const RingLimits& limits, std::vector<double>& positions);
+                                                    const RingLimits& limits,
+                                                    const std::vector<std::uint8_t>& dropped,
+                                                    std::vector<double>& positions);
 
 }  // namespace quadmark::robust

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "distortion_budget.h"
 #include "embed_diamonds.h"
 #include "embed_rings.h"
 #include "quadmark/random.h"
@@ -17,6 +18,7 @@ struct Preset {
   double mostStep;     ///< of layer A's lattice, ring radii
   double maxError;     ///< of the diagonal
   double concealment;  ///< jitter of cells that were not flat, of the diagonal
+  double budget;       ///< of the mean distortion that `standard` may cause
 };
 
 double cosineOf(double degrees) {
@@ -26,12 +28,12 @@ double cosineOf(double degrees) {
 // What each strength spends. Distortion and survival of each are in docs/robust.md.
 Preset presetOf(Strength strength) {
   struct Row {
-    double step, crease, ringTurn, gap, sharp, cellTurn, farQuota, mostFar, maxError, concealment;
+    double step, crease, ringTurn, gap, sharp, cellTurn, farQuota, mostFar, maxError, concealment, budget;
   };
   static constexpr Row kRows[] = {
-      {0.5, 12, 5, 0.012, 35, 4, 0.03, 6, 2e-3, 1e-5},     // invisible
-      {0.7, 25, 10, 0.035, 35, 10, 0.075, 10, 6e-3, 1e-5},  // standard
-      {0.9, 35, 20, 0.1, 60, 20, 0.135, 100, 1.5e-2, 0},   // strong
+      {0.5, 12, 5, 0.012, 35, 4, 0.03, 6, 2e-3, 1e-5, 0.5},     // invisible
+      {0.7, 25, 10, 0.035, 35, 10, 0.075, 10, 6e-3, 1e-5, 1},  // standard
+      {0.9, 35, 20, 0.1, 60, 20, 0.135, 100, 1.5e-2, 0, 1e9},  // strong
   };
   const Row& row = kRows[static_cast<int>(strength)];
   Preset out;
@@ -45,7 +47,20 @@ Preset presetOf(Strength strength) {
   out.mostStep = row.step;
   out.maxError = row.maxError;
   out.concealment = row.concealment;
+  out.budget = row.budget;
   return out;
+}
+
+// What the whole mark may do at `standard`: vertex normals turn by half a degree, surfaces lie .006 % of the diagonal
+// apart, on coarser meshes 1 % over the root of the number of vertices (a third of a percent of the mean edge).
+constexpr double kMeanTurn = 0.0087, kSurfaceRms = 5.9e-5, kSurfaceRmsCoarse = 9.8e-3;
+// Shares do not add up exactly: aim a little lower, and look again.
+constexpr double kBudgetShare = 0.98;
+constexpr int kBudgetRounds = 6;
+
+DistortionLimits limitsOf(const Preset& preset, const Surface& surface, double diagonal) {
+  const double coarse = kSurfaceRmsCoarse / std::sqrt(static_cast<double>(std::max(1u, surface.vertexCount())));
+  return {preset.budget * kMeanTurn, preset.budget * std::max(kSurfaceRms, coarse) * diagonal};
 }
 
 // Exactly flat quadrilaterals are a beacon that needs no key. Cells that were not flat before get a gap of the size
@@ -88,6 +103,43 @@ std::uint8_t chooseDelta(const std::vector<Diamond>& diamonds, const std::vector
     if (2 * slots >= codedBits) return c;
   }
   return 4;
+}
+
+// Undoes the dearest cells, and marks the dearest carriers, until what is left should keep within the limits; all
+// carriers return to where they were, to be written anew. False where nothing had to go.
+bool giveUp(const Surface& surface, const FacesAround& facesAround, const std::vector<Diamond>& diamonds,
+            const Carriers& carriers, const DistortionLimits& limits, std::uint32_t symbolBits,
+            const std::vector<std::uint32_t>& written, std::vector<WrittenCell>& cells,
+            std::vector<std::uint8_t>& droppedCarriers, std::vector<double>& positions) {
+  const std::vector<double>& original = surface.welded.positions;
+  const Change change(surface, facesAround, original, positions);
+  const double turns = limits.turn * surface.vertexCount();
+  const double squares = limits.surfaceRms * limits.surfaceRms * surface.vertexCount();
+  if (change.turns() <= turns && change.squares() <= squares) return false;
+  std::vector<Expense> expenses;
+  for (const std::uint32_t i : written)
+    expenses.push_back({change.turnOf(carriers.vertex[i]), change.squareOf(carriers.vertex[i]), 2});
+  for (const WrittenCell& cell : cells) {
+    Expense e{0, 0, static_cast<double>(symbolBits)};
+    const Diamond& q = diamonds[cell.diamond];
+    for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) e.turn += change.turnOf(v), e.square += change.squareOf(v);
+    expenses.push_back(e);
+  }
+  const std::vector<std::uint8_t> dropped = expensesToDrop(expenses, kBudgetShare * turns, kBudgetShare * squares);
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    droppedCarriers[written[i]] |= dropped[i];
+    put(positions, carriers.vertex[written[i]], at(original, carriers.vertex[written[i]]));
+  }
+  std::vector<WrittenCell> kept;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Diamond& q = diamonds[cells[i].diamond];
+    if (dropped[written.size() + i] == 0)
+      kept.push_back(cells[i]);
+    else
+      for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) put(positions, v, at(original, v));
+  }
+  cells = std::move(kept);
+  return true;
 }
 
 std::uint32_t countSet(const std::vector<std::uint8_t>& flags) {
@@ -140,17 +192,27 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   const Constellation constellation(out.deltaClass, keys, sharing, payload.headCode(), payload.bodyCode());
   std::vector<std::uint8_t> occupied(surface.vertexCount(), 0);
   for (const std::uint32_t v : carriers.vertex) occupied[v] = 1;
-  const DiamondEmbedding cells =
-      embedDiamonds(surface, diamonds, constellation, payload, preset.diamond, occupied, positions);
-
+  const FacesAround facesAround(surface);
+  DiamondEmbedding cells =
+      embedDiamonds(surface, facesAround, diamonds, constellation, payload, preset.diamond, occupied, positions);
   conceal(cells.cells, diamonds, Prf(keys.assignment), preset.concealment * diagonal, positions);
 
-  // 2. Layer A.
+  // 2. Layer A. Where both together are more than the preset allows, the dearest parts go, and A is written again.
   if (cancelled("rings", 0.8)) return aborted;
   const RingCode code(keys);
-  const SymmetricTensor tensor = edgeTensor(surface, positions);
-  preset.ring.step = std::min(preset.mostStep, chooseRingStep(carriers, positions, tensor, diagonal));
-  const std::vector<std::uint32_t> written = embedRings(carriers, code, payload, tensor, preset.ring, positions);
+  const DistortionLimits limits = limitsOf(preset, surface, diagonal);
+  std::vector<std::uint8_t> droppedCarriers(carriers.count(), 0);
+  std::vector<std::uint32_t> written;
+  for (int round = 0;; ++round) {
+    const SymmetricTensor tensor = edgeTensor(surface, positions);
+    if (round == 0)
+      preset.ring.step = std::min(preset.mostStep, chooseRingStep(carriers, positions, tensor, diagonal));
+    written = embedRings(carriers, code, payload, tensor, preset.ring, droppedCarriers, positions);
+    if (round == kBudgetRounds || preset.budget > 1) break;
+    if (!giveUp(surface, facesAround, diamonds, carriers, limits, constellation.shape().symbol, written, cells.cells,
+                droppedCarriers, positions))
+      break;
+  }
 
   // 3. Back to the file's vertices and precision.
   out.positions = mesh.positions;

@@ -88,6 +88,23 @@ Surface makeSurface(const Mesh& mesh) {
   return out;
 }
 
+FacesAround::FacesAround(const Surface& surface)
+    : offsets_(surface.vertexCount() + 1, 0), faces_(surface.corners.size()) {
+  for (const std::uint32_t v : surface.corners) ++offsets_[v + 1];
+  for (std::size_t v = 1; v < offsets_.size(); ++v) offsets_[v] += offsets_[v - 1];
+  std::vector<std::uint32_t> cursor(offsets_.begin(), offsets_.end() - 1);
+  for (std::uint32_t f = 0; f < surface.faceCount(); ++f)
+    for (const std::uint32_t v : surface.face(f)) faces_[cursor[v]++] = f;
+}
+
+Vec3 areaVector(std::span<const std::uint32_t> face, const std::vector<double>& positions) {
+  const Vec3 origin = at(positions, face[0]);
+  Vec3 sum;
+  for (std::size_t k = 1; k + 1 < face.size(); ++k)
+    sum += cross(at(positions, face[k]) - origin, at(positions, face[k + 1]) - origin);
+  return sum;
+}
+
 double largestExtent(std::span<const double> positions) {
   double largest = 0;
   for (int axis = 0; axis < 3; ++axis) {

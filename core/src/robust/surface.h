@@ -38,6 +38,22 @@ struct Surface {
 /// @param mesh  must validate(). Cost: linear.
 [[nodiscard]] Surface makeSurface(const Mesh& mesh);
 
+/// The faces around each welded vertex.
+class FacesAround {
+ public:
+  explicit FacesAround(const Surface& surface);
+  /// Ascending; a face that meets the vertex twice is listed twice.
+  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t vertex) const {
+    return {faces_.data() + offsets_[vertex], offsets_[vertex + 1] - offsets_[vertex]};
+  }
+
+ private:
+  std::vector<std::uint32_t> offsets_, faces_;
+};
+
+/// Twice the area vector of a face (Newell's, for polygons).
+[[nodiscard]] Vec3 areaVector(std::span<const std::uint32_t> face, const std::vector<double>& positions);
+
 /// Largest side of the bounding box of the welded vertices; 0 for none.
 [[nodiscard]] double largestExtent(std::span<const double> positions);
 

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "distortion_budget.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "point_triangle.h"
+
+namespace quadmark::robust {
+namespace {
+
+using detail::Point;
+
+Point pointAt(const std::vector<double>& positions, std::uint32_t v) {
+  const double* p = &positions[3 * std::size_t{v}];
+  return {p[0], p[1], p[2]};
+}
+
+std::vector<Vec3> unitNormals(const Surface& surface, const std::vector<double>& positions) {
+  std::vector<Vec3> normals(surface.vertexCount());
+  for (std::uint32_t f = 0; f < surface.faceCount(); ++f) {
+    const auto face = surface.face(f);
+    const Vec3 area = areaVector(face, positions);
+    for (const std::uint32_t v : face) normals[v] += area;
+  }
+  for (Vec3& normal : normals) normal = normalized(normal);
+  return normals;
+}
+
+// Squared distance of a point from the faces around a vertex, which are the nearest for displacements this small.
+double squaredToFan(const Point& p, const Surface& surface, std::span<const std::uint32_t> faces,
+                    const std::vector<double>& positions) {
+  double best = 1e300;
+  for (const std::uint32_t f : faces) {
+    const auto face = surface.face(f);
+    for (std::size_t c = 2; c < face.size(); ++c)
+      best = std::min(best, detail::squaredToTriangle(p, pointAt(positions, face[0]), pointAt(positions, face[c - 1]),
+                                                      pointAt(positions, face[c])));
+  }
+  return best;
+}
+
+// Drops the dearest per vote until the sum of the others is at most `limit`.
+template <class Cost>
+void dropDearest(const std::vector<Expense>& expenses, double limit, const Cost& cost,
+                 std::vector<std::uint8_t>& dropped) {
+  double sum = 0;
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < expenses.size(); ++i)
+    if (dropped[i] == 0) sum += cost(expenses[i]), order.push_back(i);
+  if (sum <= limit) return;
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const double x = cost(expenses[a]) * expenses[b].votes, y = cost(expenses[b]) * expenses[a].votes;
+    return x != y ? x > y : a < b;
+  });
+  for (std::size_t i = 0; i < order.size() && sum > limit; ++i) {
+    sum -= cost(expenses[order[i]]);
+    dropped[order[i]] = 1;
+  }
+}
+
+}  // namespace
+
+Change::Change(const Surface& surface, const FacesAround& facesAround, const std::vector<double>& original,
+               const std::vector<double>& positions)
+    : turnOf_(surface.vertexCount(), 0.0f), squareOf_(surface.vertexCount(), 0.0f) {
+  const std::uint32_t count = surface.vertexCount();
+  std::vector<float> moved(count);
+  for (std::uint32_t v = 0; v < count; ++v) {
+    const Vec3 d = at(positions, v) - at(original, v);
+    moved[v] = static_cast<float>(dot(d, d));
+  }
+  const std::vector<Vec3> before = unitNormals(surface, original), after = unitNormals(surface, positions);
+  for (std::uint32_t v = 0; v < count; ++v) {
+    if (moved[v] > 0) {
+      const auto faces = facesAround.of(v);
+      const double square = 0.5 * (squaredToFan(pointAt(original, v), surface, faces, positions) +
+                                   squaredToFan(pointAt(positions, v), surface, faces, original));
+      squareOf_[v] = static_cast<float>(square);
+      squares_ += square;
+    }
+    const double turn = length(after[v] - before[v]);
+    if (!(turn > 0)) continue;
+    turns_ += turn;
+    // All corners of the faces around, not only neighbours: a polygon's normal depends on each of them.
+    double total = 0;
+    for (const std::uint32_t f : facesAround.of(v))
+      for (const std::uint32_t w : surface.face(f)) total += static_cast<double>(moved[w]);
+    if (!(total > 0)) continue;
+    for (const std::uint32_t f : facesAround.of(v))
+      for (const std::uint32_t w : surface.face(f))
+        if (moved[w] > 0) turnOf_[w] += static_cast<float>(turn * static_cast<double>(moved[w]) / total);
+  }
+}
+
+std::vector<std::uint8_t> expensesToDrop(const std::vector<Expense>& expenses, double turnLimit, double squareLimit) {
+  std::vector<std::uint8_t> dropped(expenses.size(), 0);
+  dropDearest(expenses, turnLimit, [](const Expense& e) { return e.turn; }, dropped);
+  dropDearest(expenses, squareLimit, [](const Expense& e) { return e.square; }, dropped);
+  return dropped;
+}
+
+}  // namespace quadmark::robust
