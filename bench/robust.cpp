@@ -1,60 +1,49 @@
 // SPDX-License-Identifier: MIT
-// quadmark_robust: the harness behind docs/robust.md. Marks models with 64-bit IDs, damages them, reads the IDs back.
+// quadmark_robust: the harness behind docs/robust.md. Marks models, damages them, reads the marks back.
 //
-//   quadmark_robust [--keys N] [--strength invisible|standard|strong] [--attacks NAME,NAME,...] MODEL...
+//   quadmark_robust [--keys FIRST-LAST] [--strength invisible|standard|strong] [--payload id|image] [--rows attacks|tools]
+//                   [--results FILE] MODEL...
 //
-// MODEL is a file, or KIND:VERTICES[:SEED] for a generated model (lab/generate.h); KEEP in MODEL@KEEP decimates it
-// first (QEM, to that share of its vertices). Prints two Markdown tables: what was written and what it cost, one row
-// per model; then what was read, one row per attack and one column per model: in how many of the N keys the ID was read
-// exactly, "+k" where k more were verified against the expected ID (p <= 1e-6), and the layers that read it (A rings, B
-// diamonds, + their sum, s after sharpening). Any wrong ID is shouted about. The last lines give CPU times.
-#include <algorithm>
+// MODEL is as in robust_models.h. Prints, and appends to FILE, two kinds of lines; those that FILE has already are
+// neither computed nor written again:
+//   mark;MODEL;STRENGTH;PAYLOAD;KEY;VERTICES;CARRIERS;LABELS;CELLS;SNR dB;surface RMS %;largest move %;normals degrees;
+//   read;MODEL;STRENGTH;PAYLOAD;KEY;ROW;OUTCOME;LAYERS;PROBABILITY;BER;
+// OUTCOME: exact; verified (against the expected payload, p <= 1e-6; an image that is recognised, with its bit error
+// rate); lost; wrong (another payload with certainty); refused (too little capacity: nothing was written); failed (the
+// tool, not the mark). LAYERS: A rings, B diamonds, + their sum, s after sharpening. scripts/robust.sh runs it on
+// everything, bench/robust_table.mjs makes the tables.
+#include <sys/types.h>
+#include <unistd.h>
+
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
+#include <cstring>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "quadmark/io/model.h"
-#include "quadmark/lab/attacks.h"
-#include "quadmark/lab/generate.h"
 #include "quadmark/metrics.h"
-#include "quadmark/robust/embedder.h"
-#include "quadmark/robust/frame.h"
-#include "quadmark/robust/keys.h"
-#include "quadmark/robust/mark.h"
+#include "quadmark/random.h"
+#include "quadmark/robust/marker.h"
 #include "quadmark/robust/mesh_source.h"
-#include "quadmark/robust/reader.h"
 #include "robust_attacks.h"
+#include "robust_models.h"
+#include "robust_results.h"
 #include "surface_rms.h"
 
 namespace {
 
 using namespace quadmark;
 using namespace quadmark::robust;
+using Fields = std::vector<std::string>;
 
-Result<Mesh> load(const std::string& name) {
-  const std::size_t keep = name.find('@');
-  if (keep != name.npos) {
-    const auto whole = load(name.substr(0, keep));
-    if (!whole) return whole.error();
-    return lab::simplifyQem(*whole, std::strtod(name.c_str() + keep + 1, nullptr));
-  }
-  const std::size_t colon = name.find(':');
-  if (colon != name.npos) {
-    const std::size_t second = name.find(':', colon + 1);
-    const std::uint64_t seed = second == name.npos ? 1 : std::strtoull(name.c_str() + second + 1, nullptr, 10);
-    return lab::generate(name.substr(0, colon), std::strtoull(name.c_str() + colon + 1, nullptr, 10), seed);
-  }
-  std::ifstream stream(name, std::ios::binary);
-  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  auto model = readModel(bytes);
-  if (!model) return model.error();
-  return std::move((*model)->mesh());
-}
+struct Settings {
+  int firstKey = 1, lastKey = 3;
+  Strength strength = Strength::standard;
+  bool image = false, tools = false;
+};
 
 SchemeKeys keysOf(int number) {
   std::vector<std::uint8_t> secret(32);
@@ -62,150 +51,165 @@ SchemeKeys keysOf(int number) {
   return deriveKeys(secret, "").value();
 }
 
-struct Score {
-  int read = 0, verified = 0, wrong = 0;
-  std::set<char> layers;
-};
-
-struct Column {
-  std::string name;
-  std::vector<Score> scores;  // per attack
-};
-
-struct Times {
-  double embed = 0, read = 0;
-  double embedded = 0, readVertices = 0;
-};
-
-char layerName(const Hypothesis& h) {
-  if (h.sharpening > 0) return 's';
-  return h.layers == Layers::ring ? 'A' : h.layers == Layers::diamonds ? 'B' : '+';
+// An ID, or a picture of a ring and a bar with some noise, 24 pixels a side.
+Payload payloadOf(int key, bool image) {
+  if (!image) return Payload{0x0123456789abcdefu * static_cast<std::uint64_t>(2 * key + 1)};
+  BitImage picture{24, 24, {}};
+  Random random(static_cast<std::uint64_t>(key));
+  for (int y = 0; y < 24; ++y)
+    for (int x = 0; x < 24; ++x) {
+      const int r = (2 * x - 23) * (2 * x - 23) + (2 * y - 23) * (2 * y - 23);
+      const bool drawn = (r < 480 && r > 260) || std::abs(x - y) < 2 || random.uniform() < 0.05;
+      picture.bits.push_back(drawn ? 1 : 0);
+    }
+  return Payload{picture};
 }
 
-double cpuSeconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+std::string text(double value, const char* format = "%.4g") {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
 }
 
-void readBack(const Mesh& damaged, const SchemeKeys& keys, std::uint64_t id, Score& score, Times& times) {
-  const double start = cpuSeconds();
+std::string layerOf(const MarkReading& reading) {
+  if (!reading.hypothesis) return "-";
+  const Hypothesis& h = *reading.hypothesis;
+  if (h.sharpening > 0) return "s";
+  return h.layers == Layers::ring ? "A" : h.layers == Layers::diamonds ? "B" : "+";
+}
+
+// OUTCOME;LAYERS;PROBABILITY;BER
+Fields outcomeOf(const Mesh& damaged, const SchemeKeys& keys, const PayloadBits& bits, const Payload& payload) {
   MeshReader reader(damaged, keys.geometry, headCode());
   MeshSource source(reader);
-  const auto reading = readMark(source, {.keys = keys, .expected = Payload{id}});
-  times.read += cpuSeconds() - start;
-  times.readVertices += static_cast<double>(damaged.vertexCount());
-  if (!reading) return;
-  if (reading->id()) {
-    if (*reading->id() != id) {
-      ++score.wrong;
-    } else {
-      ++score.read;
-      score.layers.insert(layerName(*reading->hypothesis));
-    }
-  } else if (reading->comparison == Comparison::agrees && reading->verdict == Verdict::match) {
-    ++score.verified;
+  const auto reading = readMark(source, {.keys = keys, .expected = payload});
+  if (!reading) return {"failed", "-", "1", "-"};
+  std::string ber = "-";
+  if (!bits.body.empty() && reading->body && reading->body->bits.size() == bits.body.size()) {
+    double wrong = 0;
+    for (std::size_t i = 0; i < bits.body.size(); ++i) wrong += reading->body->bits[i] != bits.body[i] ? 1 : 0;
+    ber = text(wrong / static_cast<double>(bits.body.size()));
   }
+  const bool certain = reading->framed && reading->readProbability <= kMatchProbability;
+  std::string outcome = "lost";
+  if (certain && !(reading->frame == bits.frame)) {
+    outcome = "wrong";
+  } else if (certain && (bits.body.empty() || (reading->body && reading->body->exact))) {
+    outcome = "exact";
+  } else if (reading->verdict == Verdict::match) {
+    outcome = "verified";
+  }
+  return {outcome, layerOf(*reading), text(reading->falsePositive, "%.1e"), ber};
 }
 
-// Marks one model under all keys; prints its row of the first table.
-bool run(const std::string& name, int keyCount, Strength strength, const std::vector<bench::NamedAttack>& attacks,
-         Column& column, Times& times) {
-  const auto mesh = load(name);
-  if (!mesh) {
-    std::fprintf(stderr, "%s: %s\n", name.c_str(), mesh.error().message.c_str());
-    return false;
-  }
-  column.name = name.substr(name.rfind('/') + 1);
-  column.scores.resize(attacks.size());
-  double carriers = 0, labels = 0, cells = 0, snr = 0, rms = 0, most = 0, normal = 0;
-  for (int number = 1; number <= keyCount; ++number) {
-    const SchemeKeys keys = keysOf(number);
-    const std::uint64_t id = 0x0123456789abcdefu * static_cast<std::uint64_t>(2 * number + 1);
-    const auto bits = bitsOf(Payload{id}, BodyRate::half, static_cast<std::uint8_t>(strength), keys);
-    EmbedOptions options;
-    options.strength = strength;
-    const double start = cpuSeconds();
-    const auto marked = embedRobust(*mesh, encode(*bits, keys), keys.geometry, options);
-    times.embed += cpuSeconds() - start;
-    times.embedded += static_cast<double>(mesh->vertexCount());
-    if (!marked) {
-      std::fprintf(stderr, "%s: %s\n", name.c_str(), marked.error().message.c_str());
-      return false;
-    }
-    Mesh copy = *mesh;
-    copy.positions = marked->positions;
-    const Distortion d = distortion(*mesh, copy);
-    carriers += marked->carriers, labels += marked->labels, cells += marked->cells, snr += d.snrDb;
-    rms += bench::surfaceRmsRel(*mesh, copy.positions), most += d.maxRel, normal += d.meanNormalDeg;
-    for (std::size_t i = 0; i < attacks.size(); ++i)
-      readBack(attacks[i].apply(copy), keys, id, column.scores[i], times);
-  }
-  std::printf("| %s | %zu | %.0f | %.0f | %.0f | %.1f | %.4f | %.2f | %.2f |\n", column.name.c_str(),
-              mesh->vertexCount(), carriers / keyCount, labels / keyCount, cells / keyCount, snr / keyCount,
-              100 * rms / keyCount, 100 * most / keyCount, normal / keyCount);
-  std::fflush(stdout);
-  return true;
+// The mesh that a program of a web build makes of a GLB.
+Result<Mesh> throughTool(const bench::NamedTool& tool, const std::vector<std::uint8_t>& glb) {
+  const std::string stem = "/tmp/quadmark-tool-" + std::to_string(getpid()), in = stem + "-in.glb",
+                    out = stem + "-out.glb";
+  std::ofstream(in, std::ios::binary)
+      .write(reinterpret_cast<const char*>(glb.data()), static_cast<std::streamsize>(glb.size()));
+  std::remove(out.c_str());
+  std::string command = tool.command;
+  command.replace(command.find("IN"), 2, in);
+  command.replace(command.find("OUT"), 3, out);
+  const bool ran = std::system((command + " >" + stem + ".log 2>&1").c_str()) == 0;
+  std::ifstream stream(out, std::ios::binary);
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  for (const std::string& file : {in, out, stem + ".log"}) std::remove(file.c_str());
+  if (!ran || bytes.empty()) return Error{ErrorCode::io, tool.name + " failed"};
+  auto model = readModel(bytes);
+  if (!model) return model.error();
+  return std::move((*model)->mesh());
 }
 
-std::string cell(const Score& score) {
-  std::string text = std::to_string(score.read);
-  if (score.verified > 0) text += "+" + std::to_string(score.verified);
-  if (score.read > 0) text += " " + std::string(score.layers.begin(), score.layers.end());
-  if (score.wrong > 0) text += " **WRONG " + std::to_string(score.wrong) + "**";
-  return text;
-}
+void runKey(const bench::NamedModel& model, int key, const Settings& settings, bench::ResultFile& results) {
+  const Fields what = {model.name, strengthName(settings.strength), settings.image ? "image" : "id",
+                       std::to_string(key)};
+  const auto keyOf = [&](const char* kind, const std::string& row) {
+    Fields fields = {kind};
+    fields.insert(fields.end(), what.begin(), what.end());
+    if (!row.empty()) fields.push_back(row);
+    return fields;
+  };
+  std::vector<bench::NamedAttack> attacks;
+  std::vector<bench::NamedTool> tools;
+  if (!settings.tools)
+    for (const bench::NamedAttack& attack : bench::robustAttacks())
+      if ((!settings.image || bench::isForImages(attack.name)) && !results.has(keyOf("read", attack.name)))
+        attacks.push_back(attack);
+  if (settings.tools)
+    for (const bench::NamedTool& tool : bench::webTools())
+      if (!results.has(keyOf("read", tool.name))) tools.push_back(tool);
+  if (attacks.empty() && tools.empty() && results.has(keyOf("mark", ""))) return;
 
-void printReads(const std::vector<Column>& columns, const std::vector<bench::NamedAttack>& attacks) {
-  std::printf("\n| attack |");
-  for (const Column& c : columns) std::printf(" %s |", c.name.c_str());
-  std::printf("\n| --- |");
-  for (std::size_t i = 0; i < columns.size(); ++i) std::printf(" --- |");
-  std::printf("\n");
-  for (std::size_t i = 0; i < attacks.size(); ++i) {
-    std::printf("| %s |", attacks[i].name.c_str());
-    for (const Column& c : columns) std::printf(" %s |", cell(c.scores[i]).c_str());
-    std::printf("\n");
+  const SchemeKeys keys = keysOf(key);
+  const Payload payload = payloadOf(key, settings.image);
+  EmbedOptions options;
+  options.strength = settings.strength;
+  const auto marked = markMesh(model.mesh, payload, keys, options);
+  if (!marked) {
+    std::fprintf(stderr, "%s: %s\n", model.name.c_str(), marked.error().message.c_str());
+    for (const auto& attack : attacks) results.add(keyOf("read", attack.name), {"refused", "-", "1", "-"});
+    for (const auto& tool : tools) results.add(keyOf("read", tool.name), {"refused", "-", "1", "-"});
+    return;
+  }
+  Mesh copy = model.mesh;
+  copy.positions = marked->embedding.positions;
+  if (!results.has(keyOf("mark", ""))) {
+    const Distortion d = distortion(model.mesh, copy);
+    const RobustEmbedding& e = marked->embedding;
+    results.add(keyOf("mark", ""),
+                {std::to_string(model.mesh.vertexCount()), std::to_string(e.carriers), std::to_string(e.labels),
+                 std::to_string(e.cells), text(d.snrDb), text(100 * bench::surfaceRmsRel(model.mesh, copy.positions)),
+                 text(100 * d.maxRel), text(d.meanNormalDeg)});
+  }
+  for (const auto& attack : attacks)
+    results.add(keyOf("read", attack.name), outcomeOf(attack.apply(copy), keys, marked->bits, payload));
+  if (tools.empty()) return;
+  const auto glb = bench::toGlb(model, copy.positions);
+  for (const auto& tool : tools) {
+    const Result<Mesh> damaged = glb ? throughTool(tool, *glb) : Result<Mesh>(glb.error());
+    if (!damaged) std::fprintf(stderr, "%s: %s\n", model.name.c_str(), damaged.error().message.c_str());
+    results.add(keyOf("read", tool.name), damaged ? outcomeOf(*damaged, keys, marked->bits, payload)
+                                                  : Fields{"failed", "-", "1", "-"});
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  int keys = 3;
-  Strength strength = Strength::standard;
-  std::set<std::string> wanted;
+  Settings settings;
+  std::string path;
   std::vector<std::string> models;
   for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument == "--keys" && i + 1 < argc) {
-      keys = std::max(1, std::atoi(argv[++i]));
-    } else if (argument == "--strength" && i + 1 < argc) {
-      const std::string name = argv[++i];
-      strength = name == "strong" ? Strength::strong : name == "invisible" ? Strength::invisible : Strength::standard;
-    } else if (argument == "--attacks" && i + 1 < argc) {
-      const std::string list = argv[++i];
-      for (std::size_t from = 0; from <= list.size();) {
-        const std::size_t comma = std::min(list.find(',', from), list.size());
-        wanted.insert(list.substr(from, comma - from));
-        from = comma + 1;
-      }
+    const std::string argument = argv[i], value = i + 1 < argc ? argv[i + 1] : "";
+    if (argument.rfind("--", 0) == 0) ++i;
+    if (argument == "--keys") {
+      settings.firstKey = settings.lastKey = std::atoi(value.c_str());
+      if (const std::size_t dash = value.find('-'); dash != value.npos)
+        settings.lastKey = std::atoi(value.c_str() + dash + 1);
+    } else if (argument == "--strength") {
+      const auto strength = strengthFrom(value);
+      if (!strength) return std::fprintf(stderr, "%s\n", strength.error().message.c_str()), 2;
+      settings.strength = *strength;
+    } else if (argument == "--payload") {
+      settings.image = value == "image";
+    } else if (argument == "--rows") {
+      settings.tools = value == "tools";
+    } else if (argument == "--results") {
+      path = value;
     } else {
       models.push_back(argument);
     }
   }
-  std::vector<bench::NamedAttack> attacks;
-  for (const bench::NamedAttack& attack : bench::robustAttacks())
-    if (wanted.empty() || wanted.count(attack.name) == 1) attacks.push_back(attack);
-  std::printf(
-      "| model | vertices | carriers | labels | cells | SNR dB | surface RMS %% | largest move %% | normals deg |\n");
-  std::printf("| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
-  std::vector<Column> columns;
-  Times times;
+  bench::ResultFile results(path);
   for (const std::string& name : models) {
-    Column column;
-    if (run(name, keys, strength, attacks, column, times)) columns.push_back(std::move(column));
+    const auto model = bench::loadModel(name);
+    if (!model) {
+      std::fprintf(stderr, "%s: %s\n", name.c_str(), model.error().message.c_str());
+      return 1;
+    }
+    for (int key = settings.firstKey; key <= settings.lastKey; ++key) runKey(*model, key, settings, results);
   }
-  printReads(columns, attacks);
-  std::fprintf(stderr, "CPU: embedding %.2f us per vertex, reading %.2f us per vertex\n",
-               1e6 * times.embed / times.embedded, 1e6 * times.read / times.readVertices);
   return 0;
 }

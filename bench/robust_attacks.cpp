@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "robust_attacks.h"
 
+#include <cstdio>
+#include <cstdlib>
+#include <set>
+
 #include "quadmark/lab/attacks.h"
 
 namespace quadmark::bench {
@@ -13,6 +17,17 @@ Mesh quantized(const Mesh& m, int bits) {
 // The geometry of `gltf-transform optimize`: everything that costs less than 1e-4 of the extent collapses.
 Mesh optimized(const Mesh& m) {
   return lab::simplifyMeshopt(m, 0, nullptr, 1e-4);
+}
+
+// Coordinates as text of six significant digits.
+Mesh sixDigits(Mesh m) {
+  for (double& x : m.positions) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", x);
+    x = std::strtod(text, nullptr);
+  }
+  roundToPrecision(m);
+  return m;
 }
 
 // Gaussian-like noise of an object that fills 1 / scale of a scene quantized to 14 bits: 8.4e-4 of its own largest side
@@ -31,6 +46,7 @@ std::vector<NamedAttack> robustAttacks() {
   add("none", [](const Mesh& m) { return m; });
   add("reorder", [](const Mesh& m) { return lab::reorder(m, 5); });
   add("affine", [](const Mesh& m) { return lab::affine(m, *lab::paperAffine("CB")); });
+  add("6 digits", sixDigits);
   for (const auto& [name, a] :
        {std::pair{"noise 2e-5", 2e-5}, {"noise 1e-4", 1e-4}, {"noise 3e-4", 3e-4}, {"noise 1e-3", 1e-3}})
     add(name, [amplitude = a](const Mesh& m) { return lab::noise(m, amplitude, 3); });
@@ -54,10 +70,36 @@ std::vector<NamedAttack> robustAttacks() {
       [](const Mesh& m) { return quantized(lab::simplifyMeshopt(lab::affine(m, *lab::paperAffine("CB")), 0.85), 14); });
   add("crop 50+s.7", [](const Mesh& m) { return lab::simplifyMeshopt(lab::crop(m, 0.5), 0.7); });
   add("qem .9", [](const Mesh& m) { return lab::simplifyQem(m, 0.9); });
+  add("qem .8", [](const Mesh& m) { return lab::simplifyQem(m, 0.8); });
   add("qem .7", [](const Mesh& m) { return lab::simplifyQem(m, 0.7); });
   add("scene 1/20", [](const Mesh& m) { return inScene(m, 20); });
   add("scene 1/100", [](const Mesh& m) { return inScene(m, 100); });
   return list;
+}
+
+bool isForImages(const std::string& attack) {
+  static const std::set<std::string> names = {"none", "reorder", "affine", "6 digits", "noise 2e-5", "noise 1e-4",
+                                              "noise 3e-4", "q16", "q14", "q12", "q11", "q10", "crop 50", "s.9", "s.7"};
+  return names.count(attack) == 1;
+}
+
+std::vector<NamedTool> webTools() {
+  const std::string bin = "node_modules/.bin/";
+  const auto transform = [&](const std::string& name, const std::string& options) {
+    return NamedTool{"gltf-transform " + name + (options.empty() ? "" : " " + options),
+                     bin + "gltf-transform " + name + " IN OUT " + options};
+  };
+  const auto pack = [&](const std::string& options) {
+    return NamedTool{"gltfpack" + options, bin + "gltfpack" + options + " -i IN -o OUT"};
+  };
+  return {transform("optimize", ""),
+          transform("optimize", "--compress draco"),
+          transform("draco", ""),
+          transform("draco", "--quantize-position 11"),
+          transform("draco", "--quantize-position 10"),
+          pack(""),
+          pack(" -cc"),
+          pack(" -vp 12")};
 }
 
 }  // namespace quadmark::bench

@@ -16,5 +16,15 @@ struct NamedAttack {
 
 /// The rows of docs/robust.md, mild ones first.
 [[nodiscard]] std::vector<NamedAttack> robustAttacks();
+/// Of these, the ones that images are put to.
+[[nodiscard]] bool isForImages(const std::string& attack);
+
+struct NamedTool {
+  std::string name;
+  std::string command;  ///< for a shell; IN and OUT stand for a GLB each
+};
+
+/// The programs of web builds at their defaults.
+[[nodiscard]] std::vector<NamedTool> webTools();
 
 }  // namespace quadmark::bench

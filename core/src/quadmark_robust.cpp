@@ -4,26 +4,22 @@
 #include <utility>
 
 #include "quadmark/exact_math.h"
-#include "quadmark/robust/embedder.h"
+#include "quadmark/robust/marker.h"
 #include "quadmark/robust/mesh_source.h"
-#include "quadmark/robust/self_test.h"
 #include "quadmark_calls.h"
 #include "report_robust.h"
 
 namespace quadmark {
 namespace {
 
-using robust::BodyRate;
-using robust::CodedPayload;
+using robust::kLeastPositions;
+using robust::MarkedMesh;
 using robust::Payload;
 using robust::PayloadBits;
 using robust::RobustEmbedding;
-using robust::SchemeKeys;
 
 // A pixel whose log odds are below this is marked as unread, as in the other scheme.
 constexpr float kLeastRatio = 0.2f;
-// Head positions that one layer must reach: one and a half times the information.
-constexpr std::uint32_t kLeastPositions = robust::kFrameBits * 3 / 2;
 
 Result<Payload> payloadOf(const EmbedRequest& request) {
   if (int{request.image.has_value()} + int{request.id.has_value()} + int{request.text.has_value()} != 1)
@@ -33,64 +29,7 @@ Result<Payload> payloadOf(const EmbedRequest& request) {
   return Payload{*request.text};
 }
 
-/// Coded forms of a body to try, the most robust that could fit first: a vote per coded bit and more is worth a code,
-/// fewer are better spent on the pixels themselves.
-std::vector<BodyRate> ratesFor(const Mesh& mesh, const PayloadBits& bits, const SchemeKeys& keys) {
-  if (bits.body.empty()) return {BodyRate::half};
-  const robust::MeshReader reader(mesh, keys.geometry, robust::headCode());
-  const double votes = 2.0 * reader.coverage().labels / static_cast<double>(bits.body.size());
-  if (votes >= 12) return {BodyRate::third, BodyRate::half, BodyRate::plain};
-  return {BodyRate::half, BodyRate::plain};
-}
-
-struct Marked {
-  PayloadBits bits;
-  CodedPayload coded;
-  RobustEmbedding embedding;
-  robust::SelfTest unattacked;
-};
-
-Error tooSmall(const Marked& marked, bool readable) {
-  const RobustEmbedding& e = marked.embedding;
-  const std::string counts = std::to_string(e.carriers) + " carriers and " + std::to_string(e.cells) + " cells hold " +
-                             std::to_string(std::max(e.ringPositions, e.diamondPositions)) + " of the " +
-                             std::to_string(marked.coded.head.size()) + " bits that identify the mark";
-  if (!readable)
-    return {ErrorCode::capacity, counts + ": the payload does not read back" +
-                                     (marked.bits.body.empty() ? "" : "; a smaller image or an ID may fit")};
-  return {ErrorCode::capacity, counts + ", at least " + std::to_string(kLeastPositions) + " are needed"};
-}
-
-Result<Marked> markMesh(const Mesh& mesh, const Payload& payload, const SchemeKeys& keys, const EmbedRequest& request) {
-  const robust::EmbedOptions options{request.robust.strength, request.robust.maxErrorRel, request.robust.maxSlideRel,
-                                     request.progress};
-  const auto strength = static_cast<std::uint8_t>(request.robust.strength);
-  auto bits = robust::bitsOf(payload, BodyRate::half, strength, keys);
-  if (!bits) return bits.error();
-  Marked marked;
-  for (const BodyRate rate : ratesFor(mesh, *bits, keys)) {
-    auto atRate = robust::bitsOf(payload, rate, strength, keys);
-    if (!atRate) return atRate.error();
-    marked.bits = std::move(*atRate);
-    marked.coded = robust::encode(marked.bits, keys);
-    auto embedding = robust::embedRobust(mesh, marked.coded, keys.geometry, options);
-    if (!embedding) return embedding.error();
-    marked.embedding = std::move(*embedding);
-    Mesh after = mesh;
-    after.positions = marked.embedding.positions;
-    roundToPrecision(after);  // integer grids are coarser than what the layers round to
-    marked.embedding.positions = after.positions;
-    if (!tell(request.progress, "verify", 0.9)) return cancelled();
-    marked.unattacked = robust::readBack(after, marked.bits, keys);
-    if (marked.unattacked.read) break;
-  }
-  if (!marked.unattacked.read) return tooSmall(marked, false);
-  if (std::max(marked.embedding.ringPositions, marked.embedding.diamondPositions) < kLeastPositions)
-    return tooSmall(marked, true);
-  return marked;
-}
-
-std::vector<std::string> warningsFor(const Model& model, const Marked& marked) {
+std::vector<std::string> warningsFor(const Model& model, const MarkedMesh& marked) {
   std::vector<std::string> warnings = model.info().warnings;
   const RobustEmbedding& e = marked.embedding;
   if (e.ringPositions < kLeastPositions)
@@ -170,7 +109,9 @@ Result<EmbedResponse> embedRobustFile(std::span<const std::uint8_t> file, const 
   if (!model) return model.error();
   const Mesh& mesh = (*model)->mesh();
 
-  auto marked = markMesh(mesh, *payload, *keys, request);
+  const robust::EmbedOptions options{request.robust.strength, request.robust.maxErrorRel, request.robust.maxSlideRel,
+                                     request.progress};
+  auto marked = robust::markMesh(mesh, *payload, *keys, options);
   if (!marked) return marked.error();
   std::vector<robust::SelfTest> tests;
   if (request.robust.selfTest) {

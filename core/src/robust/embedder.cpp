@@ -51,15 +51,18 @@ Preset presetOf(Strength strength) {
   return out;
 }
 
-// What the whole mark may do at `standard`: vertex normals turn by half a degree, surfaces lie .006 % of the diagonal
-// apart, on coarser meshes 1 % over the root of the number of vertices (a third of a percent of the mean edge).
-constexpr double kMeanTurn = 0.0087, kSurfaceRms = 5.9e-5, kSurfaceRmsCoarse = 9.8e-3;
+// What the whole mark may do at `standard`: vertex normals turn by half a degree; surfaces lie .006 % of the diagonal
+// apart, or one part in as many as there are vertices where that is more: as the distance of a mesh from the smooth
+// surface that it approximates falls.
+constexpr double kMeanTurn = 0.0087, kSurfaceRms = 5.9e-5, kSurfaceRmsCoarse = 0.98;
 // Shares do not add up exactly: aim a little lower, and look again.
 constexpr double kBudgetShare = 0.98;
 constexpr int kBudgetRounds = 6;
+// Votes of cells are worth more than those of carriers: four vertices have to stay where simplification leaves half.
+constexpr double kCellWorth = 1.4;
 
 DistortionLimits limitsOf(const Preset& preset, const Surface& surface, double diagonal) {
-  const double coarse = kSurfaceRmsCoarse / std::sqrt(static_cast<double>(std::max(1u, surface.vertexCount())));
+  const double coarse = kSurfaceRmsCoarse / std::max(1u, surface.vertexCount());
   return {preset.budget * kMeanTurn, preset.budget * std::max(kSurfaceRms, coarse) * diagonal};
 }
 
@@ -120,7 +123,7 @@ bool giveUp(const Surface& surface, const FacesAround& facesAround, const std::v
   for (const std::uint32_t i : written)
     expenses.push_back({change.turnOf(carriers.vertex[i]), change.squareOf(carriers.vertex[i]), 2});
   for (const WrittenCell& cell : cells) {
-    Expense e{0, 0, static_cast<double>(symbolBits)};
+    Expense e{0, 0, kCellWorth * symbolBits};
     const Diamond& q = diamonds[cell.diamond];
     for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) e.turn += change.turnOf(v), e.square += change.squareOf(v);
     expenses.push_back(e);

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "quadmark/robust/marker.h"
+
+#include <algorithm>
+#include <string>
+
+#include "quadmark/robust/reader.h"
+
+namespace quadmark::robust {
+namespace {
+
+/// Coded forms of a body to try, the most robust that could fit first: a vote per coded bit and more is worth a code,
+/// fewer are better spent on the pixels themselves.
+std::vector<BodyRate> ratesFor(const Mesh& mesh, const PayloadBits& bits, const SchemeKeys& keys) {
+  if (bits.body.empty()) return {BodyRate::half};
+  const MeshReader reader(mesh, keys.geometry, headCode());
+  const double votes = 2.0 * reader.coverage().labels / static_cast<double>(bits.body.size());
+  if (votes >= 12) return {BodyRate::third, BodyRate::half, BodyRate::plain};
+  return {BodyRate::half, BodyRate::plain};
+}
+
+Error tooSmall(const MarkedMesh& marked, bool readable) {
+  const RobustEmbedding& e = marked.embedding;
+  const std::string counts = std::to_string(e.carriers) + " carriers and " + std::to_string(e.cells) + " cells hold " +
+                             std::to_string(std::max(e.ringPositions, e.diamondPositions)) + " of the " +
+                             std::to_string(marked.coded.head.size()) + " bits that identify the mark";
+  if (!readable)
+    return {ErrorCode::capacity, counts + ": the payload does not read back" +
+                                     (marked.bits.body.empty() ? "" : "; a smaller image or an ID may fit")};
+  return {ErrorCode::capacity, counts + ", at least " + std::to_string(kLeastPositions) + " are needed"};
+}
+
+}  // namespace
+
+Result<MarkedMesh> markMesh(const Mesh& mesh, const Payload& payload, const SchemeKeys& keys,
+                            const EmbedOptions& options) {
+  const auto strength = static_cast<std::uint8_t>(options.strength);
+  auto bits = bitsOf(payload, BodyRate::half, strength, keys);
+  if (!bits) return bits.error();
+  MarkedMesh marked;
+  for (const BodyRate rate : ratesFor(mesh, *bits, keys)) {
+    auto atRate = bitsOf(payload, rate, strength, keys);
+    if (!atRate) return atRate.error();
+    marked.bits = std::move(*atRate);
+    marked.coded = encode(marked.bits, keys);
+    auto embedding = embedRobust(mesh, marked.coded, keys.geometry, options);
+    if (!embedding) return embedding.error();
+    marked.embedding = std::move(*embedding);
+    Mesh after = mesh;
+    after.positions = marked.embedding.positions;
+    roundToPrecision(after);  // integer grids are coarser than what the layers round to
+    marked.embedding.positions = after.positions;
+    if (options.progress && !options.progress("verify", 0.9)) return Error{ErrorCode::aborted, "cancelled by the caller"};
+    marked.unattacked = readBack(after, marked.bits, keys);
+    if (marked.unattacked.read) break;
+  }
+  if (!marked.unattacked.read) return tooSmall(marked, false);
+  if (std::max(marked.embedding.ringPositions, marked.embedding.diamondPositions) < kLeastPositions)
+    return tooSmall(marked, true);
+  return marked;
+}
+
+}  // namespace quadmark::robust
