@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -101,6 +102,44 @@ TEST(NumberParse, RoundsOnceToTheTypeOfTheProperty) {
   // Through a double this would round twice: down to 1 + 2^-24 exactly, then to the even 1.
   EXPECT_EQ(parseFloat("1.00000005960464477540").value(), 1.00000011920928955f);
   EXPECT_EQ(static_cast<float>(parseDouble("1.00000005960464477540").value()), 1.0f);
+}
+
+TEST(NumberParse, RoundsMiddlesToEvenHoweverManyDigitsTheyHave) {
+  Bits bits;
+  for (int i = 0; i < 20000; ++i) {
+    // An odd number of 25 bits is the middle between two floats.
+    const int exponent = static_cast<int>(bits.next() % 200) - 100;
+    char text[400];
+    std::snprintf(text, sizeof(text), "%.200f", std::ldexp(static_cast<double>((bits.next() >> 39) | 1), exponent));
+    const std::string spelled = text;
+    ASSERT_EQ(parseFloat(spelled).value(), std::strtof(text, nullptr)) << spelled;
+    ASSERT_EQ(parseFloat(spelled + "1").value(), std::strtof((spelled + "1").c_str(), nullptr)) << spelled;
+  }
+  const char* numbers[] = {"9007199254740993", "9007199254740993.00000000000000000000000000000000000000000000000001",
+                           "2.4703282292062327e-324", "2.4703282292062328e-324", "4.9406564584124654e-324",
+                           "2.2250738585072011e-308", "2.2250738585072012e-308", "1.7976931348623158e308",
+                           "1.7976931348623159e308", "1.7976931348623157e308", "7.0064923216240853e-46",
+                           "7.0064923216240854e-46", "3.4028235677973366e38", "3.4028235677973365e38", "1e309", "1e-400",
+                           "-1e400", "-1e-400", "0.1e-1000000000000", "123456789012345678901234567890e-340"};
+  for (const char* text : numbers) {
+    EXPECT_EQ(parseDouble(text).value(), std::strtod(text, nullptr)) << text;
+    EXPECT_EQ(parseFloat(text).value(), std::strtof(text, nullptr)) << text;
+    EXPECT_EQ(std::signbit(parseDouble(text).value()), text[0] == '-') << text;
+  }
+  // The middle between 0 and the least double has 751 digits; one more digit, far behind, decides.
+  std::string least(1200, '\0');
+  least.resize(static_cast<std::size_t>(std::snprintf(least.data(), least.size(), "%.1074f", 5e-324)));
+  std::string middle = least;
+  for (std::size_t i = 2, carry = 0; i < least.size(); ++i) {
+    const std::size_t digit = 10 * carry + static_cast<std::size_t>(least[i] - '0');
+    middle[i] = static_cast<char>('0' + digit / 2);
+    carry = digit % 2;
+  }
+  middle += "5";
+  EXPECT_EQ(parseDouble(middle).value(), 0.0);
+  EXPECT_EQ(parseDouble(middle + std::string(5000, '0')).value(), 0.0);
+  EXPECT_EQ(parseDouble(middle + std::string(5000, '0') + "1").value(), 5e-324);
+  EXPECT_EQ(parseDouble(std::string(5000, '9') + "e-4999").value(), 10.0);
 }
 
 TEST(NumberParse, AgreesWithTheCLibraryOnRandomDecimals) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <charconv>
-#include <cstdlib>
+#include <cstring>
 #include <limits>
+#include <type_traits>
 
+#include "number_natural.h"
 #include "number_text.h"
 
 namespace quadmark {
@@ -14,6 +16,7 @@ struct Decimal {
   bool truncated = false;  // more than 19 significant digits
   std::uint64_t mantissa = 0;
   std::int64_t exponent = 0;
+  std::int64_t written = 0;  // the exponent behind the e, which `exponent` contains
 };
 
 bool isDigit(char character) {
@@ -55,7 +58,8 @@ std::optional<Decimal> takeApart(std::string_view text) {
     for (; at < text.size() && isDigit(text[at]); ++at) {
       if (exponent < kExponentLimit) exponent = 10 * exponent + (text[at] - '0');
     }
-    number.exponent += negative ? -exponent : exponent;
+    number.written = negative ? -exponent : exponent;
+    number.exponent += number.written;
   }
   if (at != text.size()) return std::nullopt;
   return number;
@@ -75,27 +79,93 @@ struct FastRange<double> {
                                        1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 };
 
-/// The general case, by the C++ library: from_chars where it exists for floating point, else strtof / strtod, which in
-/// Emscripten (musl) know no locale and round once.
 template <class T>
-T parseWithLibrary(std::string_view text, const Decimal& number) {
-  if (text[0] == '+') text.remove_prefix(1);  // from_chars knows no plus sign
-#if defined(__cpp_lib_to_chars)
-  T value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc()) return value;
-  // Out of range and no value given: all such numbers are far on one side of 1.
-  const T limit = number.exponent > -20 ? std::numeric_limits<T>::infinity() : T{0};
-  return number.negative ? -limit : limit;
-#else
-  static_cast<void>(number);
-  const std::string terminated(text);
-  if constexpr (std::is_same_v<T, float>) {
-    return std::strtof(terminated.c_str(), nullptr);
-  } else {
-    return std::strtod(terminated.c_str(), nullptr);
+struct Format;
+template <>
+struct Format<float> {
+  using Bits = std::uint32_t;
+  static constexpr int kMantissaBits = 24, kLeastExponent = -149, kExponents = 255;  // the last one means infinity
+};
+template <>
+struct Format<double> {
+  using Bits = std::uint64_t;
+  static constexpr int kMantissaBits = 53, kLeastExponent = -1074, kExponents = 2047;
+};
+
+/// Enough for 781 digits, for 10^1131 and for these times 2^54: see parseExactly().
+using Large = Natural<128>;
+
+/// The significant digits of a number as an integer, and the power of ten behind it. Digits beyond any that could matter
+/// become a last 1, which lies on the same side of every binary number and of every middle between two.
+Large significantDigits(std::string_view text, std::int64_t& power) {
+  constexpr int kMostDigits = 780;  // a middle between two doubles has at most 767
+  Large value(0);
+  int digits = 0;
+  bool afterPoint = false, cutOff = false;
+  for (const char character : text) {
+    if (character == 'e' || character == 'E') break;
+    if (character == '.') afterPoint = true;
+    if (!isDigit(character)) continue;
+    if (digits < kMostDigits) {
+      value.multiply(10, static_cast<std::uint32_t>(character - '0'));
+      if (digits > 0 || character != '0') ++digits;
+      if (afterPoint) --power;
+    } else {
+      cutOff = cutOff || character != '0';
+      if (!afterPoint) ++power;
+    }
   }
-#endif
+  if (!cutOff) return value;
+  value.multiply(10, 1);
+  --power;
+  return value;
+}
+
+/// The general case: a quotient of integers, divided bit by bit and rounded once, ties to even.
+/// @param number  not zero.
+template <class T>
+T parseExactly(std::string_view text, const Decimal& number) {
+  using F = Format<T>;
+  // 1. Numbers out of all ranges, so that the integers stay within bounds.
+  const T sign = number.negative ? T{-1} : T{1};
+  if (number.exponent > 310) return sign * std::numeric_limits<T>::infinity();
+  if (number.exponent < -350) return sign * T{0};  // the mantissa is below 10^19
+
+  // 2. numerator / denominator in [2^(bits-1), 2^bits) times 2^exponent, or less at the least exponent.
+  std::int64_t power = number.written;
+  Large numerator = significantDigits(text, power), denominator(1);
+  (power > 0 ? numerator : denominator).multiplyByPowerOfTen(static_cast<int>(power > 0 ? power : -power));
+  int exponent = numerator.bitLength() - denominator.bitLength() - F::kMantissaBits;
+  if (exponent < F::kLeastExponent) exponent = F::kLeastExponent;
+  (exponent > 0 ? denominator : numerator).shiftLeft(exponent > 0 ? exponent : -exponent);
+  denominator.shiftLeft(F::kMantissaBits - 1);
+  Large twice = denominator;
+  twice.shiftLeft(1);
+  if (numerator.compare(twice) >= 0) {
+    denominator = twice;
+    ++exponent;
+  }
+
+  // 3. The bits, from the highest to the lowest.
+  std::uint64_t mantissa = 0;
+  for (int bit = 0; bit < F::kMantissaBits; ++bit) {
+    mantissa *= 2;
+    if (numerator.compare(denominator) >= 0) {
+      numerator.subtract(denominator);
+      ++mantissa;
+    }
+    numerator.shiftLeft(1);
+  }
+  const int rest = numerator.compare(denominator);  // twice the remainder, against the lowest bit
+  if (rest > 0 || (rest == 0 && mantissa % 2 != 0)) ++mantissa;
+
+  // 4. Bits of the format. A carry into the next exponent, or from the denormal numbers, is right by itself.
+  const std::uint64_t hidden = std::uint64_t{1} << (F::kMantissaBits - 1), infinity = F::kExponents * hidden;
+  const std::uint64_t wide = static_cast<std::uint64_t>(exponent - F::kLeastExponent) * hidden + mantissa;
+  const auto bits = static_cast<typename F::Bits>(wide < infinity ? wide : infinity);
+  T value;
+  std::memcpy(&value, &bits, sizeof(value));
+  return sign * value;
 }
 
 /// NaN or infinity in the spellings that printf implementations produce.
@@ -116,25 +186,45 @@ std::optional<T> parseNotFinite(std::string_view text) {
   return std::nullopt;
 }
 
+/// Where mantissa and power of ten are exact, one multiplication or division rounds correctly (Clinger 1990).
+template <class T>
+std::optional<T> parseFast(const Decimal& number) {
+  using Fast = FastRange<T>;
+  constexpr auto kLargestPower = static_cast<std::int64_t>(std::size(Fast::kPowers)) - 1;
+  if (number.truncated || number.mantissa > Fast::kMantissa || number.exponent < -kLargestPower ||
+      number.exponent > kLargestPower) {
+    return std::nullopt;
+  }
+  T value = static_cast<T>(number.mantissa);
+  if (number.exponent < 0) {
+    value /= Fast::kPowers[-number.exponent];
+  } else {
+    value *= Fast::kPowers[number.exponent];
+  }
+  return number.negative ? -value : value;
+}
+
+/// Most floats with too many digits for that: the nearest double tells the nearest float, unless it is the very middle
+/// between two. Denormal floats are out of these powers' reach.
+std::optional<float> parseByDouble(const Decimal& number) {
+  const std::optional<double> wide = parseFast<double>(number);
+  if (!wide) return std::nullopt;
+  std::uint64_t bits;
+  std::memcpy(&bits, &*wide, sizeof(bits));
+  if ((bits & 0x1fffffff) == 0x10000000) return std::nullopt;
+  return static_cast<float>(*wide);
+}
+
 template <class T>
 std::optional<T> parseNumber(std::string_view text) {
-  using Fast = FastRange<T>;
   const std::optional<Decimal> number = takeApart(text);
   if (!number) return parseNotFinite<T>(text);
-  // Mantissa and power of ten are exact, so one multiplication or division rounds correctly (Clinger 1990).
-  constexpr auto kLargestPower = static_cast<std::int64_t>(std::size(Fast::kPowers)) - 1;
-  if (!number->truncated && number->mantissa <= Fast::kMantissa && number->exponent >= -kLargestPower &&
-      number->exponent <= kLargestPower) {
-    T value = static_cast<T>(number->mantissa);
-    if (number->exponent < 0) {
-      value /= Fast::kPowers[-number->exponent];
-    } else {
-      value *= Fast::kPowers[number->exponent];
-    }
-    return number->negative ? -value : value;
+  if (const std::optional<T> value = parseFast<T>(*number)) return value;
+  if constexpr (std::is_same_v<T, float>) {
+    if (const std::optional<float> value = parseByDouble(*number)) return value;
   }
   if (number->mantissa == 0 && !number->truncated) return number->negative ? -T{0} : T{0};
-  return parseWithLibrary<T>(text, *number);
+  return parseExactly<T>(text, *number);
 }
 
 }  // namespace

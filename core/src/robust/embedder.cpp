@@ -166,7 +166,7 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   if (payload.head.empty()) return Error{ErrorCode::badOption, "payload: the head is empty"};
   for (const auto& [name, cap] : {std::pair{"maxError", options.maxErrorRel}, {"maxSlide", options.maxSlideRel}})
     if (!(cap >= 0 && cap <= 1))
-      return Error{ErrorCode::badOption, std::string(name) + ": " + std::to_string(cap) + " is not within 0..1"};
+      return Error{ErrorCode::badOption, std::string(name) + " is not within 0..1"};
   const double diagonal = boundingDiagonal(mesh);
   if (!(diagonal > 0)) return Error{ErrorCode::badMesh, "the model has no extent"};
   const auto cancelled = [&](const char* stage, double done) {
