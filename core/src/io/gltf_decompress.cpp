@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "number_text.h"
+#include "gltf_bounds.h"
 
 namespace quadmark::io {
 namespace {
@@ -26,26 +26,19 @@ std::vector<std::uint8_t> aligned(Bytes packed, std::uint32_t elementBytes, std:
 
 /// ,"min":[..],"max":[..] of packed positions.
 std::string boundsText(Bytes positions, std::uint32_t componentType) {
-  return withComponent(componentType, [&](auto component) {
-    using T = decltype(component);
-    T low[3] = {}, high[3] = {};
-    for (std::size_t i = 0; i < positions.size() / sizeof(T); ++i) {
-      const T value = load<T>(&positions[i * sizeof(T)]);
-      low[i % 3] = i < 3 ? value : std::min(low[i % 3], value);
-      high[i % 3] = i < 3 ? value : std::max(high[i % 3], value);
+  const std::uint64_t elementBytes = 3 * componentBytes(componentType);
+  const std::vector<CodeRange> ranges =
+      codeRanges(positions.data(), elementBytes, positions.size() / elementBytes, componentType, 3);
+  std::string text;
+  for (const bool isLow : {true, false}) {
+    text += isLow ? R"(,"min":[)" : R"(,"max":[)";
+    for (const CodeRange& range : ranges) {
+      if (text.back() != '[') text += ',';
+      text += spellBound(isLow ? range.low : range.high, componentType);
     }
-    std::string text;
-    for (const bool isLow : {true, false}) {
-      text += isLow ? R"(,"min":[)" : R"(,"max":[)";
-      for (int axis = 0; axis < 3; ++axis) {
-        if (axis > 0) text += ',';
-        const T bound = isLow ? low[axis] : high[axis];
-        text += std::is_floating_point_v<T> ? formatShortest(static_cast<float>(bound)) : std::to_string(bound);
-      }
-      text += ']';
-    }
-    return text;
-  });
+    text += ']';
+  }
+  return text;
 }
 
 }  // namespace
@@ -83,6 +76,39 @@ void Decompression::replaceView(std::uint32_t view, Bytes plain) {
   edits_.json().setMember(views_[view], "byteOffset", std::to_string(place.byteOffset));
   removeExtension(views_[view], {kMeshoptNames[0], kMeshoptNames[1]});
   replacedViews_.insert(view);
+  for (const JsonValue& accessor : accessors_) {
+    if (accessor.find("bufferView").asUnsigned() == std::uint64_t{view}) correctBounds(accessor, view, plain);
+  }
+}
+
+/// Nobody could check the bounds of compressed data, and some tools declare those of what they had before their filter
+/// rounded it. Of plain data they must be true.
+void Decompression::correctBounds(JsonValue accessor, std::uint32_t view, Bytes plain) {
+  if (accessor.find("sparse")) return;  // its elements lie elsewhere, too; of positions, GltfModel sees to it
+  const std::string type = accessor.find("type").asString();
+  const std::uint32_t components = componentsOfType(type);
+  const std::uint64_t componentType = accessor.find("componentType").asUnsigned().value_or(0);
+  const bool isVector = type == "SCALAR" || type.substr(0, 3) == "VEC";
+  if (componentType != kGltfFloat && (!isVector || componentType < kGltfInt8 || componentType > kGltfUint16)) return;
+  const std::uint64_t elementBytes = components * componentBytes(static_cast<std::uint32_t>(componentType));
+  const std::uint64_t declaredStride = views_[view].find("byteStride").asUnsigned().value_or(0);
+  const std::uint64_t stride = declaredStride == 0 ? elementBytes : declaredStride;
+  const std::uint64_t offset = accessor.find("byteOffset").asUnsigned().value_or(0);
+  const std::uint64_t count = accessor.find("count").asUnsigned().value_or(0);
+  if (components == 0 || count == 0 || offset > plain.size() || elementBytes > plain.size() - offset) return;
+  if (count - 1 > (plain.size() - offset - elementBytes) / stride) return;  // broken: not ours to mend
+
+  const std::vector<CodeRange> ranges =
+      codeRanges(plain.data() + offset, stride, count, static_cast<std::uint32_t>(componentType), components);
+  for (const bool isLow : {true, false}) {
+    const JsonValue bounds = accessor.find(isLow ? "min" : "max");
+    if (!bounds.isArray() || bounds.elementCount() != components) continue;
+    std::size_t k = 0;
+    bounds.forEachElement([&](JsonValue declared) {
+      const CodeRange& range = ranges[k++];
+      correctBound(declared, isLow ? range.low : range.high, static_cast<std::uint32_t>(componentType), edits_.json());
+    });
+  }
 }
 
 /// The attributes besides positions that primitives take from their Draco stream.

@@ -15,8 +15,9 @@ class Decompression {
   /// @param edits  must outlive the object.
   explicit Decompression(GltfEdits& edits);
 
-  /// Lets a view compressed by EXT_meshopt_compression or KHR_meshopt_compression refer to plain bytes instead; all
-  /// accessors in it stay as they are. The compressed bytes stay in the file, unused.
+  /// Lets a view compressed by EXT_meshopt_compression or KHR_meshopt_compression refer to plain bytes instead. All
+  /// accessors in it stay as they are but for bounds that are not true of those bytes. The compressed bytes stay in the
+  /// file, unused.
   void replaceView(std::uint32_t view, Bytes plain);
 
   /// Lets the primitives drawn from a Draco stream refer to plain accessors instead: the given positions, and the
@@ -40,6 +41,7 @@ class Decompression {
   Result<std::vector<Column>> columnsOf(const std::vector<JsonValue>& primitives, const DracoStream& stream) const;
   std::string appendAccessor(Bytes packed, std::uint32_t elementBytes, std::uint32_t componentType,
                              const std::string& members);
+  void correctBounds(JsonValue accessor, std::uint32_t view, Bytes plain);
   void removeExtension(JsonValue owner, std::initializer_list<const char*> names);
   [[nodiscard]] bool isStillUsed(std::string_view extension) const;
 

@@ -3,10 +3,10 @@
 
 #include "allowed_spans.h"
 #include "data_uri.h"
+#include "gltf_bounds.h"
 #include "gltf_decompress.h"
 #include "gltf_edits.h"
 #include "gltf_model.h"
-#include "number_text.h"
 #include "patch_positions.h"
 
 namespace quadmark::io {
@@ -101,6 +101,8 @@ Status GltfModel::editBounds(Bytes file, const Bounds& bounds, std::span<const d
                              const std::vector<BufferBytes>& buffers, const std::vector<bool>& decompressed,
                              JsonEdits& edits) const {
   const PositionWindow& window = positions_.windows[bounds.window];
+  const bool wasCompressed = window.isStored() && decompressed[positions_.arrays[window.array].buffer];
+  if (wasCompressed && window.values == kNone) return okStatus();  // Decompression has done it
   Extent before, after;
   std::uint64_t done = 0;
   std::size_t replaced = 0;
@@ -122,8 +124,8 @@ Status GltfModel::editBounds(Bytes file, const Bounds& bounds, std::span<const d
 
   const PositionWindow& typed =
       window.isStored() || window.values == kNone ? window : positions_.windows[window.values];
-  const bool isFloat = !typed.isStored() || positions_.arrays[typed.array].type.component == kGltfFloat;
-  const bool mayStay = !window.isStored() || !decompressed[positions_.arrays[window.array].buffer];
+  const std::uint32_t componentType =
+      typed.isStored() ? positions_.arrays[typed.array].type.component : std::uint32_t{kGltfFloat};
   const auto edit = [&](FileSpan span, const double(&old)[3], const double(&now)[3]) {
     if (span.empty()) return okStatus();
     if (span.end > file.size()) return Status(notTheFile("the JSON text differs"));
@@ -133,11 +135,8 @@ Status GltfModel::editBounds(Bytes file, const Bounds& bounds, std::span<const d
     int axis = 0;
     array->forEachElement([&](JsonValue element) {
       const int a = axis++;
-      if (mayStay && old[a] == now[a]) return;
-      std::optional<double> declared = parseDouble(element.text());
-      if (const std::optional<float> narrow = parseFloat(element.text()); narrow && isFloat) declared = *narrow;
-      if (!declared || *declared == now[a]) return;
-      edits.replace(element.text(), isFloat ? formatShortest(static_cast<float>(now[a])) : formatShortest(now[a]));
+      if (!wasCompressed && old[a] == now[a]) return;
+      correctBound(element, now[a], componentType, edits);
     });
     return okStatus();
   };
