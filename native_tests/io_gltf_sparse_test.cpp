@@ -164,6 +164,70 @@ TEST(SparseGltf, CountsThatNothingBacksCostNothing) {
   }
 }
 
+/// The grid whose triangle indices come from a sparse part where `listed` says so, and from the base, which is wrong
+/// there, or zeros elsewhere.
+FileBytes sparselyIndexed(const std::vector<int>& listed, bool base = true, const std::string& extra = "") {
+  const GridGltf grid = gridGltf();
+  BufferBuilder buffer{grid.bin};
+  for (const int corner : listed) appendScalar(buffer.bytes, "uchar", corner, io::ByteOrder::little);
+  buffer.bytes.resize(180, 0xee);
+  for (const int corner : listed) {
+    const int vertex = gridTriangles()[static_cast<std::size_t>(corner / 3)][static_cast<std::size_t>(corner % 3)];
+    appendScalar(buffer.bytes, "ushort", vertex, io::ByteOrder::little);
+    io::store(&buffer.bytes[108 + 2 * static_cast<std::size_t>(corner)], std::uint16_t{500});
+  }
+  std::string json = replaced(grid.json, "156", std::to_string(buffer.bytes.size()));
+  json = replaced(json, R"("type":"SCALAR")",
+                  R"("type":"SCALAR","sparse":{"count":)" + std::to_string(listed.size()) +
+                      R"(,"indices":{"bufferView":2,"componentType":5121},"values":{"bufferView":3)" + extra + "}}");
+  json = replaced(json, R"("byteOffset":108,"byteLength":48})",
+                  R"("byteOffset":108,"byteLength":48},{"buffer":0,"byteOffset":156,"byteLength":24},)"
+                  R"({"buffer":0,"byteOffset":180,"byteLength":)" + std::to_string(2 * listed.size()) + "}");
+  if (!base) json = replaced(json, R"({"bufferView":1,"componentType":5123)", R"({"componentType":5123)");
+  return makeGlb(json, buffer.bytes);
+}
+
+TEST(SparseGltf, ReadsSparseIndices) {
+  const auto plain = readOk(gridGltf().glb());
+  const FileBytes file = sparselyIndexed({0, 7, 8, 23});
+  const auto model = readOk(file);
+  ASSERT_NE(model, nullptr);
+  EXPECT_EQ(model->mesh().positions, plain->mesh().positions);
+  EXPECT_EQ(model->mesh().faceVertices, plain->mesh().faceVertices);
+
+  // Marking does not touch them.
+  const Result<PatchedFile> patched = model->patch(file, {}, movedGrid());
+  ASSERT_TRUE(patched.ok()) << patched.error().message;
+  EXPECT_EQ(readOk(patched->bytes)->mesh().positions, movedGrid());
+  EXPECT_TRUE(std::equal(file.end() - 80, file.end(), patched->bytes.end() - 80));  // indices, base and sparse
+
+  // Without a base all other corners are vertex 0.
+  const auto few = readOk(sparselyIndexed({1, 2, 9, 11}, false));
+  ASSERT_NE(few, nullptr);
+  std::vector<std::uint32_t> corners(24);
+  for (const std::size_t corner : {1, 2, 9, 11}) corners[corner] = plain->mesh().faceVertices[corner];
+  EXPECT_EQ(few->mesh().faceVertices, corners);
+}
+
+TEST(SparseGltf, RefusesBrokenSparseIndicesNamingThePlace) {
+  const auto message = [](const FileBytes& file) {
+    const Result<std::unique_ptr<Model>> model = readModel(file);
+    EXPECT_FALSE(model.ok());
+    return model.ok() ? "" : model.error().message;
+  };
+  EXPECT_NE(message(sparselyIndexed({7, 0})).find("accessor 1 sparse.indices: 0 at position 1"), std::string::npos);
+  EXPECT_NE(message(sparselyIndexed({0, 24 - 1}, true, ",\"byteOffset\":2")).find("accessor 1 sparse.values"),
+            std::string::npos);
+  GridGltf strided = gridGltf();
+  strided.json = replaced(strided.json, R"("byteOffset":108,"byteLength":48})",
+                          R"("byteOffset":108,"byteLength":48,"byteStride":4})");
+  EXPECT_EQ(message(strided.glb()),
+            "mesh 0 primitive 0 indices (accessor 1): bufferView 1 has a byteStride, which indices must not have");
+  GridGltf nowhere = gridGltf();  // four thousand million zeros
+  nowhere.json = replaced(replaced(nowhere.json, R"({"bufferView":1,)", "{"), "\"count\":24", "\"count\":4000000000");
+  EXPECT_NE(message(nowhere.glb()).find("triangle corners"), std::string::npos);
+}
+
 TEST(QuantizedGltf, KeepsCodesThatMeanTheSameAndSpellsBoundsAsStored) {
   // Normalized bytes: -128 means -1, as -127 does.
   BufferBuilder buffer;

@@ -358,11 +358,15 @@ Status checkTriangles(const GltfDocument& document, const GltfPrimitive& primiti
   const bool unsignedType =
       indices.componentType == 5121 || indices.componentType == 5123 || indices.componentType == 5125;
   if (indices.components != 1 || !unsignedType) return badFile(indicesPlace + ": is not a SCALAR of unsigned integers");
-  if (indices.sparse) return unsupportedFile(indicesPlace + ": sparse accessors are not supported by this version");
-  if (indices.view == kNone) return unsupportedFile(indicesPlace + ": accessors without bufferView are not supported");
+  if (indices.count == 0) return badFile("accessor " + number(primitive.indices) + ": count is 0");
+  if (indices.sparse) {
+    if (Status status = checkSparse(document, primitive.indices); !status) return status;
+  }
+  if (indices.view == kNone) return okStatus();
   const std::uint32_t stride = document.views[indices.view].byteStride;
   if (stride != 0 && stride != indices.elementBytes()) {
-    return unsupportedFile(indicesPlace + ": indices with a byteStride are not supported");
+    return badFile(indicesPlace + ": bufferView " + number(indices.view) +
+                   " has a byteStride, which indices must not have");
   }
   return checkElements(document, primitive.indices);
 }
