@@ -7,14 +7,17 @@
 #include <map>
 #include <optional>
 
-#include "number_text.h"
+#include "io_compress.h"
 #include "io_fixtures.h"
+#include "number_text.h"
 #include "quadmark/mesh.h"
 
 namespace quadmark::test {
 
 enum class SparseUse { none, overBase, alone };
 enum class BufferUse { bin, external, dataUri, several };
+/// Of views by EXT_meshopt_compression, without and with the plain bytes as a fallback; of primitives by Draco.
+enum class Compression { none, meshopt, meshoptFallback, draco };
 
 struct MatrixSpec {
   std::string component = "float";  ///< float, char, uchar, short, ushort
@@ -28,11 +31,17 @@ struct MatrixSpec {
   bool twoMeshes = false;           ///< the last primitive is a mesh of its own
   bool sharedAccessor = false;      ///< all primitives draw from one accessor
   BufferUse buffers = BufferUse::bin;
+  Compression compression = Compression::none;  ///< draco: only of triangle lists with indices, nothing sparse or shared
+
+  [[nodiscard]] bool usesMeshopt() const {
+    return compression == Compression::meshopt || compression == Compression::meshoptFallback;
+  }
 };
 
 struct MatrixFile {
   FileBytes file;
   Resources resources;
+  std::vector<FileBytes> views;  ///< what each bufferView holds, decompressed
 };
 
 /// The grid that a component type stores; nothing for floats.
@@ -87,11 +96,20 @@ class MatrixWriter {
       }
       std::string primitive = R"({"attributes":{"POSITION":)" + std::to_string(accessor) + "}";
       if (!spec_.index.empty()) primitive += R"(,"indices":)" + std::to_string(indices(stream));
+      if (spec_.compression == Compression::draco) {
+        const std::uint32_t place = view(Content::other, 0, [&](FileBytes& out) {
+          const FileBytes bytes = encodeDraco(elements_, spec_.component, stream);
+          out.insert(out.end(), bytes.begin(), bytes.end());
+        });
+        primitive += R"(,"extensions":{"KHR_draco_mesh_compression":{"bufferView":)" + std::to_string(place) +
+                     R"(,"attributes":{"POSITION":0}}})";
+      }
       primitive += spec_.mode == 4 ? "}" : R"(,"mode":)" + std::to_string(spec_.mode) + "}";
       std::string& mesh = inSecond_ ? second : first;
       mesh += (mesh.empty() ? "" : ",") + primitive;
     }
-    first += R"(,{"attributes":{"POSITION":0},"mode":0})";  // points that draw from the first accessor, too
+    if (spec_.compression != Compression::draco)
+      first += R"(,{"attributes":{"POSITION":0},"mode":0})";  // points that draw from the first accessor, too
     return finish(first, second);
   }
 
@@ -130,17 +148,41 @@ class MatrixWriter {
 
   FileBytes& bytes() { return buffers_[spec_.buffers == BufferUse::several ? used_++ % 3 : 0]; }
 
-  /// A bufferView over the next bytes of some buffer.
+  enum class Content { vertices, triangles, indices, other };
+
+  /// A bufferView over the next bytes of some buffer. Its content decides whether and how it can be compressed.
+  /// @param stride  of vertices that are not packed, else 0.
   template <class Fill>
-  std::uint32_t view(std::uint32_t stride, const Fill& fill) {
+  std::uint32_t view(Content content, std::uint32_t stride, const Fill& fill, std::uint32_t elementBytes = 0) {
+    FileBytes plain;
+    fill(plain);
     FileBytes& buffer = bytes();
     const auto number = static_cast<std::size_t>(&buffer - buffers_);
     const std::size_t begin = buffer.size();
-    fill(buffer);
-    views_ += (views_.empty() ? "" : ",") + (R"({"buffer":)" + std::to_string(number)) + R"(,"byteOffset":)" +
-              std::to_string(begin) + R"(,"byteLength":)" + std::to_string(buffer.size() - begin) +
-              (stride == 0 ? "" : R"(,"byteStride":)" + std::to_string(stride)) + "}";
+    const auto range = [](std::size_t ofBuffer, std::size_t from, std::size_t length) {
+      return R"("buffer":)" + std::to_string(ofBuffer) + R"(,"byteOffset":)" + std::to_string(from) +
+             R"(,"byteLength":)" + std::to_string(length);
+    };
+    const std::string strided = stride == 0 ? "" : R"(,"byteStride":)" + std::to_string(stride);
+    std::string text = range(number, begin, plain.size()) + strided;
+    FileBytes stream = plain;
+    if (spec_.usesMeshopt() && content != Content::other) {
+      const std::size_t count = plain.size() / elementBytes;
+      const char* mode = content == Content::vertices    ? "ATTRIBUTES"
+                         : content == Content::triangles ? "TRIANGLES"
+                                                         : "INDICES";
+      stream = encodeMeshopt(plain, count, elementBytes, mode);
+      text = replaced(range(0, fallback_.size(), plain.size()), R"("buffer":0)", R"("buffer":FALLBACK)") + strided +
+             R"(,"extensions":{"EXT_meshopt_compression":{)" + range(number, begin, stream.size()) +
+             R"(,"byteStride":)" + std::to_string(elementBytes) + R"(,"count":)" + std::to_string(count) +
+             R"(,"mode":")" + mode + R"("}})";
+      fallback_.insert(fallback_.end(), plain.begin(), plain.end());
+      while (fallback_.size() % 4 != 0) fallback_.push_back(0);
+    }
+    buffer.insert(buffer.end(), stream.begin(), stream.end());
     while (buffer.size() % 4 != 0) buffer.push_back(0xee);
+    views_ += (views_.empty() ? "{" : ",{") + text + "}";
+    plainViews_.push_back(std::move(plain));
     return viewCount_++;
   }
 
@@ -163,14 +205,20 @@ class MatrixWriter {
     const auto isReplaced = [&](std::size_t i) { return spec_.sparse == SparseUse::alone || i % 3 == 1; };
     std::string text;
     if (spec_.sparse != SparseUse::alone) {
-      const std::uint32_t base = view(stride == 3 * width ? 0 : stride, [&](FileBytes& out) {
+      const auto fill = [&](FileBytes& out) {
         for (std::size_t i = 0; i < vertices.size(); ++i) {
           const std::size_t end = out.size() + stride;
           element(out, vertices[i], spec_.sparse == SparseUse::overBase && isReplaced(i));
           while (out.size() < end) out.push_back(0xcd);
         }
-      });
-      text = R"("bufferView":)" + std::to_string(base) + ",";
+      };
+      if (spec_.compression == Compression::draco) {
+        elements_.clear();
+        for (const std::uint32_t v : vertices) element(elements_, v, false);
+      } else {
+        const std::uint32_t base = view(Content::vertices, stride == 3 * width ? 0 : stride, fill, stride);
+        text = R"("bufferView":)" + std::to_string(base) + ",";
+      }
     }
     text += R"("componentType":)" + std::to_string(type) + R"(,"count":)" + std::to_string(vertices.size()) +
             R"(,"type":"VEC3")" + (spec_.normalized ? R"(,"normalized":true)" : "") + bounds(vertices);
@@ -178,12 +226,14 @@ class MatrixWriter {
       std::vector<std::vector<int>> list(1);
       for (std::size_t i = 0; i < vertices.size(); ++i)
         if (isReplaced(i)) list[0].push_back(static_cast<int>(i));
-      const std::uint32_t which = view(0, [&](FileBytes& out) {
+      const std::uint32_t which = view(Content::other, 0, [&](FileBytes& out) {
         for (const int i : list[0]) appendScalar(out, spec_.sparseIndex, i, io::ByteOrder::little);
       });
-      const std::uint32_t values = view(0, [&](FileBytes& out) {
+      const auto fill = [&](FileBytes& out) {
         for (const int i : list[0]) element(out, vertices[static_cast<std::size_t>(i)], false);
-      });
+      };
+      const bool compressible = 3 * width % 4 == 0;
+      const std::uint32_t values = view(compressible ? Content::vertices : Content::other, 0, fill, 3 * width);
       text += R"(,"sparse":{"count":)" + std::to_string(list[0].size()) + R"(,"indices":{"bufferView":)" +
               std::to_string(which) + R"(,"componentType":)" + indexType(spec_.sparseIndex) +
               R"(},"values":{"bufferView":)" + std::to_string(values) + "}}";
@@ -212,16 +262,41 @@ class MatrixWriter {
   }
 
   std::uint32_t indices(const std::vector<std::uint32_t>& stream) {
-    const std::uint32_t place = view(0, [&](FileBytes& out) {
-      for (const std::uint32_t v : stream) appendScalar(out, spec_.index, v, io::ByteOrder::little);
-    });
-    return accessor(R"("bufferView":)" + std::to_string(place) + R"(,"componentType":)" + indexType(spec_.index) +
+    std::string place;
+    if (spec_.compression != Compression::draco) {
+      const Content content = spec_.index == "uchar" ? Content::other
+                              : spec_.mode == 4      ? Content::triangles
+                                                     : Content::indices;
+      const auto fill = [&](FileBytes& out) {
+        for (const std::uint32_t v : stream) appendScalar(out, spec_.index, v, io::ByteOrder::little);
+      };
+      place = R"("bufferView":)" + std::to_string(view(content, 0, fill, spec_.index == "ushort" ? 2 : 4)) + ",";
+    }
+    return accessor(place + R"("componentType":)" + indexType(spec_.index) +
                     R"(,"count":)" + std::to_string(stream.size()) + R"(,"type":"SCALAR")");
+  }
+
+  /// ,"extensionsUsed":[..],"extensionsRequired":[..]
+  std::string extensions() const {
+    std::vector<std::string> required;
+    if (spec_.component != "float") required.push_back("KHR_mesh_quantization");
+    if (spec_.compression == Compression::draco) required.push_back("KHR_draco_mesh_compression");
+    if (spec_.compression == Compression::meshopt && !fallback_.empty()) required.push_back("EXT_meshopt_compression");
+    const auto list = [](const char* name, const std::vector<std::string>& names) {
+      std::string text;
+      for (const std::string& extension : names) text += (text.empty() ? "\"" : ",\"") + extension + "\"";
+      return text.empty() ? "" : "\"" + std::string(name) + "\":[" + text + "],";
+    };
+    std::vector<std::string> all = required;
+    if (spec_.compression == Compression::meshoptFallback && !fallback_.empty()) all.push_back("EXT_meshopt_compression");
+    return list("extensionsUsed", all) + list("extensionsRequired", required);
   }
 
   MatrixFile finish(const std::string& first, const std::string& second) {
     MatrixFile out;
+    out.views = plainViews_;
     std::string buffers;
+    std::size_t bufferCount = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       if (buffers_[i].empty()) continue;
       const bool bin = spec_.buffers == BufferUse::bin || (spec_.buffers == BufferUse::several && i == 0);
@@ -233,9 +308,16 @@ class MatrixWriter {
                   : outside ? R"("uri":"part%20)" + std::to_string(i) + R"(.bin",)"
                             : R"("uri":"data:application/octet-stream;base64,)" + base64(buffers_[i]) + R"(",)") +
                  R"("byteLength":)" + std::to_string(buffers_[i].size()) + "}";
+      ++bufferCount;
     }
-    const std::string quantized = R"("extensionsUsed":["KHR_mesh_quantization"],"extensionsRequired":["KHR_mesh_quantization"],)";
-    std::string json = R"({"asset":{"version":"2.0"},)" + (spec_.component == "float" ? "" : quantized) +
+    if (!fallback_.empty()) {
+      buffers += R"(,{"byteLength":)" + std::to_string(fallback_.size());
+      buffers += spec_.compression == Compression::meshoptFallback
+                     ? R"(,"uri":"data:application/octet-stream;base64,)" + base64(fallback_) + "\"}"
+                     : R"(,"extensions":{"EXT_meshopt_compression":{"fallback":true}}})";
+    }
+    views_ = replaced(views_, "FALLBACK", std::to_string(bufferCount));
+    std::string json = R"({"asset":{"version":"2.0"},)" + extensions() +
                        R"("extras":{"keep":[1e0,null,{}]},"buffers":[)" + buffers + R"(],"bufferViews":[)" + views_ +
                        R"(],"accessors":[)" + accessors_ + R"(],"meshes":[{"primitives":[)" + first + "]}" +
                        (second.empty() ? "" : R"(,{"primitives":[)" + second + "]}") +
@@ -252,6 +334,9 @@ class MatrixWriter {
   bool inSecond_ = false;
   FileBytes buffers_[3];
   std::size_t used_ = 0;
+  FileBytes fallback_;  // the plain bytes of compressed views
+  FileBytes elements_;  // of the primitive that is compressed next
+  std::vector<FileBytes> plainViews_;
   std::string views_, accessors_;
   std::uint32_t viewCount_ = 0, accessorCount_ = 0;
 };
