@@ -97,36 +97,56 @@ bool Embedder::isCell(const Quad& set) const {
   return haveOneOwner(ids, cellOf_);
 }
 
+// Brings flatSets_ up to date after a round: sets with a changed vertex are as `found` has them, all others as before.
+void Embedder::updateFlatSets(const std::vector<Quad>& found, const std::vector<std::uint8_t>& isChanged) {
+  if (!isChanged.empty())
+    std::erase_if(flatSets_, [&](const VertexSet& set) {
+      return std::any_of(set.begin(), set.end(), [&](std::uint32_t v) { return isChanged[v] != 0; });
+    });
+  const auto known = static_cast<std::ptrdiff_t>(flatSets_.size());
+  for (const Quad& quad : found) {
+    VertexSet set = {quad.a, quad.b, quad.c, quad.d};
+    std::sort(set.begin(), set.end());
+    if (!std::binary_search(flatSets_.begin(), flatSets_.begin() + known, set)) flatSets_.push_back(set);
+  }
+  std::sort(flatSets_.begin() + known, flatSets_.end());
+  std::inplace_merge(flatSets_.begin(), flatSets_.begin() + known, flatSets_.end());
+}
+
 void Embedder::separate() {
   std::vector<std::uint32_t> seeds;
-  std::vector<std::uint8_t> movedCell(cells_.size());
+  std::vector<std::uint8_t> movedCell(cells_.size()), isChanged;
   std::uint64_t salt = 1;
-  for (int round = 0; round <= kRounds; ++round) {
+  for (int round = 0;; ++round) {
     std::vector<Quad> unwanted;
     forEachCoplanarSet(welded_, positions_, key_.params.k, rounding_, {kUnwantedUnits, 1.0}, {},
                        [&](const Quad& set) { unwanted.push_back(set); }, round == 0 ? nullptr : &seeds, &cellOf_);
-    separated_ = unwanted.empty();
-    if (separated_) return;
-    if (round == kRounds) return;  // only to know whether the last round was enough
-    std::vector<std::uint32_t> changed;
+    updateFlatSets(unwanted, isChanged);
+    flatSetsKnown_ = true;
+    // The last look is only to know what remains.
+    if (unwanted.empty() || round == kRounds) return;
     std::fill(movedCell.begin(), movedCell.end(), std::uint8_t{0});
-    std::vector<std::uint8_t> lifted(welded_.vertexCount(), 0);
+    isChanged.assign(welded_.vertexCount(), 0);
+    std::vector<std::uint32_t> changed;
     for (const Quad& set : unwanted) {
       bool touched = false;
-      for (std::uint32_t v : {set.a, set.b, set.c, set.d}) touched = touched || lifted[v] != 0;
+      for (std::uint32_t v : {set.a, set.b, set.c, set.d}) touched = touched || isChanged[v] != 0;
       if (touched) continue;  // probably broken already; the next round looks again
       const std::size_t before = changed.size();
       breakSet(set, salt++, movedCell, changed);
-      for (std::size_t i = before; i < changed.size(); ++i) lifted[changed[i]] = 1;
+      for (std::size_t i = before; i < changed.size(); ++i) isChanged[changed[i]] = 1;
       if (changed.size() > before) ++report_.repairs;
     }
     // Look again only where something moved.
-    seeds = changed;
+    std::vector<std::uint8_t> isSeed = isChanged;
     std::vector<std::uint32_t> around;
-    for (std::uint32_t v : changed)
-      if (neighbourhood(welded_, v, key_.params.k, around)) seeds.insert(seeds.end(), around.begin(), around.end());
-    std::sort(seeds.begin(), seeds.end());
-    seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
+    for (std::uint32_t v : changed) {
+      if (!neighbourhood(welded_, v, key_.params.k, around)) continue;
+      for (std::uint32_t w : around) isSeed[w] = 1;
+    }
+    seeds.clear();
+    for (std::uint32_t v = 0; v < isSeed.size(); ++v)
+      if (isSeed[v] != 0) seeds.push_back(v);
   }
 }
 

@@ -54,7 +54,7 @@ std::vector<std::uint32_t> Embedder::badPieces(const Extraction& read) const {
 void Embedder::repair(const std::vector<std::uint32_t>& bad, const Extraction& read, std::uint64_t& salt) {
   std::vector<std::uint8_t> isBad(pieces_.size(), 0), moved(cells_.size(), 0);
   for (std::uint32_t piece : bad) isBad[piece] = 1;
-  separated_ = false;
+  flatSetsKnown_ = false;
   std::vector<std::uint32_t> changed;
   const auto rewrite = [&](std::uint32_t cell) {
     if (moved[cell] != 0) return;
@@ -98,7 +98,7 @@ std::size_t Embedder::checkMapped(const AffineMap& map, bool mayRepair, std::uin
     const double point[3] = {positions_[v], positions_[v + 1], positions_[v + 2]};
     applyRounded(map, point, &positions_[v]);
   }
-  const bool separated = std::exchange(separated_, false);  // what is flat in the copy is to be found out
+  const bool known = std::exchange(flatSetsKnown_, false);  // what is flat in the copy is to be found out
   const std::span<const double> halfStep = std::exchange(rounding_.halfStep, {});  // a map leaves nothing on its grid
   Extraction first = read();
   const std::vector<std::uint32_t> bad = badPieces(first);
@@ -107,7 +107,7 @@ std::size_t Embedder::checkMapped(const AffineMap& map, bool mayRepair, std::uin
     positions_.assign(kept32.begin(), kept32.end());
   else
     positions_.swap(kept64);
-  separated_ = separated;
+  flatSetsKnown_ = known;
   rounding_.halfStep = halfStep;
   if (mayRepair && !bad.empty()) repair(bad, first, salt);
   return bad.size();
@@ -144,6 +144,8 @@ void Embedder::renumber() {
   std::vector<std::uint32_t>().swap(cellOf_);
   for (PlannedCell& cell : cells_)
     for (std::uint32_t* v : {&cell.quad.a, &cell.quad.b, &cell.quad.c, &cell.quad.d}) *v = numberOf[*v];
+  for (VertexSet& set : flatSets_)
+    for (std::uint32_t& v : set) v = numberOf[v];
   for (std::uint32_t& w : welded_.weldedOf)
     if (w != kNoVertex) w = numberOf[w];
   {
@@ -179,11 +181,12 @@ Extraction Embedder::read(bool keepReadings) const {
   ExtractOptions options;
   options.keepReadings = keepReadings;
   options.bitsOnly = true;
-  // Right after separate() the sets that are flat in the output are known: they are the cells. Other numbers change
-  // nothing about that: which sets are flat is decided by makeQuad(), whose arithmetic sees positions only.
-  std::vector<std::array<std::uint32_t, 4>> sets;
-  if (separated_) {
-    sets.reserve(cells_.size());
+  // Right after separate() the sets that are flat in the output are known: the cells, and what could not be broken. Other
+  // numbers change nothing about that: which sets are flat is decided by makeQuad(), whose arithmetic sees positions only.
+  std::vector<VertexSet> sets;
+  if (flatSetsKnown_) {
+    sets.reserve(flatSets_.size() + cells_.size());
+    sets = flatSets_;
     for (const PlannedCell& cell : cells_) sets.push_back({cell.quad.a, cell.quad.b, cell.quad.c, cell.quad.d});
     options.exactSets = sets;
   }

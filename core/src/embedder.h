@@ -81,7 +81,9 @@ class Embedder {
   [[nodiscard]] double coarseness(const Quad& quad) const;
 
   // embed_separate.cpp
+  using VertexSet = std::array<std::uint32_t, 4>;
   void separate();
+  void updateFlatSets(const std::vector<Quad>& found, const std::vector<std::uint8_t>& isChanged);
   void breakSet(const Quad& set, std::uint64_t salt, std::vector<std::uint8_t>& movedCell,
                 std::vector<std::uint32_t>& changed);
   void tilt(PlannedCell& cell, std::uint64_t salt);
@@ -114,7 +116,8 @@ class Embedder {
   std::vector<PlannedCell> cells_;
   std::vector<std::uint32_t> cellOf_;     ///< per welded vertex: cell index or kNoVertex
   std::vector<std::uint32_t> copies_;     ///< per piece
-  bool separated_ = false;                ///< separate() left no flat set but the cells
+  std::vector<VertexSet> flatSets_;       ///< sorted: those that separate() could not break, apart from the cells
+  bool flatSetsKnown_ = false;            ///< nothing has moved since separate()
   bool scarce_ = false;                   ///< fewer than kScarceRepeats copies per piece
   std::size_t unreadPieces_ = 0;          ///< in the worse of the last two checks, of the output and of an affine copy
   MarkedMesh report_;
