@@ -123,40 +123,69 @@ void forEachEdge(const Mesh& mesh, const WeldedMesh& welded, const Visit& visit)
   }
 }
 
-// Every face edge is entered from both ends, so an edge of two faces stands twice; sorting each vertex's short list
-// and compacting in place removes the doubles without a second array.
-void collectEdges(const Mesh& mesh, WeldedMesh& out) {
-  const std::size_t count = out.positions.size() / 3;
-  std::vector<std::uint32_t> cursor(count + 1, 0);
-  forEachEdge(mesh, out, [&](std::uint32_t a, std::uint32_t b) {
-    ++cursor[a];
-    ++cursor[b];
-  });
-  std::uint32_t total = 0;
-  for (std::size_t v = 0; v <= count; ++v) {
-    const std::uint32_t degree = v < count ? cursor[v] : 0;
-    cursor[v] = total;
-    total += degree;
-  }
-  out.edgeOffsets.assign(cursor.begin(), cursor.end());
-  std::vector<std::uint32_t>& list = out.neighbours;
-  list.resize(total);
-  forEachEdge(mesh, out, [&](std::uint32_t a, std::uint32_t b) {
-    list[cursor[a]++] = b;
-    list[cursor[b]++] = a;
-  });
+// Sorts each vertex's short list in a flat one and drops what stands twice in it, in place.
+void sortLists(std::vector<std::uint32_t>& offsets, std::vector<std::uint32_t>& lists) {
+  const std::size_t count = offsets.size() - 1;
   std::uint32_t write = 0;
   for (std::size_t v = 0; v < count; ++v) {
-    const auto begin = list.begin() + out.edgeOffsets[v], end = list.begin() + out.edgeOffsets[v + 1];
+    const auto begin = lists.begin() + offsets[v], end = lists.begin() + offsets[v + 1];
     std::sort(begin, end);
     const auto last = std::unique(begin, end);
-    out.edgeOffsets[v] = write;
-    std::copy(begin, last, list.begin() + write);
-    write += static_cast<std::uint32_t>(last - begin);
+    offsets[v] = write;
+    write = static_cast<std::uint32_t>(std::copy(begin, last, lists.begin() + write) - lists.begin());
   }
-  out.edgeOffsets[count] = write;
-  list.resize(write);
-  list.shrink_to_fit();
+  offsets[count] = write;
+  lists.resize(write);
+}
+
+// Calls visit(b, a) for each edge a -> b whose way back b -> a is in no list.
+template <class Visit>
+void forEachOneWay(const WeldedMesh& mesh, const Visit& visit) {
+  constexpr std::size_t kShort = 24;  // the hub of a fan may have a million neighbours
+  for (std::uint32_t a = 0; a < mesh.vertexCount(); ++a)
+    for (const std::uint32_t b : mesh.neighboursOf(a)) {
+      const auto back = mesh.neighboursOf(b);
+      const bool found = back.size() <= kShort ? std::find(back.begin(), back.end(), a) != back.end()
+                                               : std::binary_search(back.begin(), back.end(), a);
+      if (!found) visit(b, a);
+    }
+}
+
+// Faces enter their edges the way they run. Where two faces with one orientation share an edge, that is both ways
+// already, so on closed surfaces the lists are complete and half as long as if every face entered both; borders and
+// faces that are turned round are made up for afterwards.
+void collectEdges(const Mesh& mesh, WeldedMesh& out) {
+  const std::size_t count = out.positions.size() / 3;
+  const auto beginLists = [&](std::vector<std::uint32_t>& degrees) {  // degrees become where the lists begin
+    std::uint32_t total = 0;
+    for (std::uint32_t& entry : degrees) {
+      const std::uint32_t degree = entry;
+      entry = total;
+      total += degree;
+    }
+    return total;
+  };
+  std::vector<std::uint32_t> cursor(count + 1, 0);
+  forEachEdge(mesh, out, [&](std::uint32_t a, std::uint32_t) { ++cursor[a]; });
+  out.neighbours.resize(beginLists(cursor));
+  out.edgeOffsets = cursor;
+  forEachEdge(mesh, out, [&](std::uint32_t a, std::uint32_t b) { out.neighbours[cursor[a]++] = b; });
+  sortLists(out.edgeOffsets, out.neighbours);
+
+  std::fill(cursor.begin(), cursor.end(), 0);
+  bool complete = true;
+  forEachOneWay(out, [&](std::uint32_t b, std::uint32_t) { ++cursor[b], complete = false; });
+  if (!complete) {
+    for (std::size_t v = 0; v < count; ++v) cursor[v] += out.edgeOffsets[v + 1] - out.edgeOffsets[v];
+    std::vector<std::uint32_t> lists(beginLists(cursor)), offsets = cursor;
+    for (std::uint32_t v = 0; v < count; ++v)
+      for (const std::uint32_t w : out.neighboursOf(v)) lists[cursor[v]++] = w;
+    forEachOneWay(out, [&](std::uint32_t b, std::uint32_t a) { lists[cursor[b]++] = a; });
+    sortLists(offsets, lists);
+    out.edgeOffsets.swap(offsets);
+    out.neighbours.swap(lists);
+  }
+  out.neighbours.shrink_to_fit();
 }
 
 }  // namespace

@@ -58,13 +58,22 @@ void PurityTable::add(int kind, const Reading& reading, double ratio1, double ra
   // Ratios to seven decimals: enough to tell readings apart, coarse enough to see that two are the same shape.
   const auto shape = static_cast<std::uint64_t>(ratio1 * 1e7) << 32 | static_cast<std::uint64_t>(ratio2 * 1e7);
   const std::uint64_t fingerprint = mix(shape * 128 + static_cast<std::uint64_t>(kind)) | 1;
-  if (!firstTime(fingerprint)) return;
-  total_[kind] += 1;
-  byChance_[kind] += reading.chance;
-  if (reading.state == ReadingState::ok) valid_[kind] += 1;
+  __builtin_prefetch(&seen_[fingerprint & (seen_.size() - 1)]);  // far beyond any cache on large meshes
+  Counted& slot = waiting_[added_ % kAhead];
+  if (added_++ >= kAhead) count(slot);
+  slot = {fingerprint, reading.chance, kind, reading.state == ReadingState::ok};
+}
+
+void PurityTable::count(const Counted& reading) {
+  if (!firstTime(reading.fingerprint)) return;
+  total_[reading.kind] += 1;
+  byChance_[reading.kind] += reading.chance;
+  if (reading.valid) valid_[reading.kind] += 1;
 }
 
 void PurityTable::estimate() {
+  for (std::size_t i = added_ - std::min(added_, kAhead); i < added_; ++i) count(waiting_[i % kAhead]);
+  added_ = 0;
   double valid = 0, total = 0, byChance = 0;
   for (std::size_t i = 0; i < total_.size(); ++i) valid += valid_[i], total += total_[i], byChance += byChance_[i];
   purity_.fill(0);

@@ -45,12 +45,23 @@ class PurityTable {
   [[nodiscard]] double excess() const { return excess_; }
 
  private:
+  struct Counted {
+    std::uint64_t fingerprint;
+    double chance;
+    int kind;
+    bool valid;
+  };
+  static constexpr std::size_t kAhead = 16;
+
+  void count(const Counted& reading);
   bool firstTime(std::uint64_t fingerprint);
 
   std::array<double, kFlatness * kCentrality> valid_{}, total_{}, byChance_{}, purity_{};
   double excess_ = 0;
   std::vector<std::uint64_t> seen_;  ///< open addressing, 0 = free
   std::size_t seenCount_ = 0;
+  std::array<Counted, kAhead> waiting_;  ///< a ring: what came last, while the memory for it is being fetched
+  std::size_t added_ = 0;
 };
 
 }  // namespace quadmark
