@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace quadmark {
 namespace {
@@ -123,69 +124,73 @@ void forEachEdge(const Mesh& mesh, const WeldedMesh& welded, const Visit& visit)
   }
 }
 
-// Sorts each vertex's short list in a flat one and drops what stands twice in it, in place.
-void sortLists(std::vector<std::uint32_t>& offsets, std::vector<std::uint32_t>& lists) {
-  const std::size_t count = offsets.size() - 1;
-  std::uint32_t write = 0;
-  for (std::size_t v = 0; v < count; ++v) {
-    const auto begin = lists.begin() + offsets[v], end = lists.begin() + offsets[v + 1];
-    std::sort(begin, end);
-    const auto last = std::unique(begin, end);
-    offsets[v] = write;
-    write = static_cast<std::uint32_t>(std::copy(begin, last, lists.begin() + write) - lists.begin());
+void sortShort(std::uint32_t* begin, std::uint32_t* end) {
+  constexpr std::ptrdiff_t kShort = 24;  // nearly all lists; but the hub of a fan may have a million neighbours
+  if (end - begin > kShort) return std::sort(begin, end);
+  for (std::uint32_t* at = begin; at != end; ++at) {
+    const std::uint32_t value = *at;
+    std::uint32_t* to = at;
+    for (; to != begin && to[-1] > value; --to) *to = to[-1];
+    *to = value;
   }
-  offsets[count] = write;
-  lists.resize(write);
 }
 
-// Calls visit(b, a) for each edge a -> b whose way back b -> a is in no list.
-template <class Visit>
-void forEachOneWay(const WeldedMesh& mesh, const Visit& visit) {
-  constexpr std::size_t kShort = 24;  // the hub of a fan may have a million neighbours
-  for (std::uint32_t a = 0; a < mesh.vertexCount(); ++a)
-    for (const std::uint32_t b : mesh.neighboursOf(a)) {
-      const auto back = mesh.neighboursOf(b);
-      const bool found = back.size() <= kShort ? std::find(back.begin(), back.end(), a) != back.end()
-                                               : std::binary_search(back.begin(), back.end(), a);
-      if (!found) visit(b, a);
-    }
+// Turns degrees into where the lists begin. Returns their length in all.
+std::uint32_t beginLists(std::vector<std::uint32_t>& degrees) {
+  std::uint32_t total = 0;
+  for (std::uint32_t& entry : degrees) {
+    const std::uint32_t degree = entry;
+    entry = total;
+    total += degree;
+  }
+  return total;
 }
 
 // Faces enter their edges the way they run. Where two faces with one orientation share an edge, that is both ways
-// already, so on closed surfaces the lists are complete and half as long as if every face entered both; borders and
+// already, so on closed surfaces the lists are complete, and half as long as if every face entered both; borders and
 // faces that are turned round are made up for afterwards.
 void collectEdges(const Mesh& mesh, WeldedMesh& out) {
   const std::size_t count = out.positions.size() / 3;
-  const auto beginLists = [&](std::vector<std::uint32_t>& degrees) {  // degrees become where the lists begin
-    std::uint32_t total = 0;
-    for (std::uint32_t& entry : degrees) {
-      const std::uint32_t degree = entry;
-      entry = total;
-      total += degree;
-    }
-    return total;
-  };
   std::vector<std::uint32_t> cursor(count + 1, 0);
+  std::vector<std::uint32_t>&offsets = out.edgeOffsets, &lists = out.neighbours;
   forEachEdge(mesh, out, [&](std::uint32_t a, std::uint32_t) { ++cursor[a]; });
-  out.neighbours.resize(beginLists(cursor));
-  out.edgeOffsets = cursor;
-  forEachEdge(mesh, out, [&](std::uint32_t a, std::uint32_t b) { out.neighbours[cursor[a]++] = b; });
-  sortLists(out.edgeOffsets, out.neighbours);
-
-  std::fill(cursor.begin(), cursor.end(), 0);
-  bool complete = true;
-  forEachOneWay(out, [&](std::uint32_t b, std::uint32_t) { ++cursor[b], complete = false; });
-  if (!complete) {
-    for (std::size_t v = 0; v < count; ++v) cursor[v] += out.edgeOffsets[v + 1] - out.edgeOffsets[v];
-    std::vector<std::uint32_t> lists(beginLists(cursor)), offsets = cursor;
-    for (std::uint32_t v = 0; v < count; ++v)
-      for (const std::uint32_t w : out.neighboursOf(v)) lists[cursor[v]++] = w;
-    forEachOneWay(out, [&](std::uint32_t b, std::uint32_t a) { lists[cursor[b]++] = a; });
-    sortLists(offsets, lists);
-    out.edgeOffsets.swap(offsets);
-    out.neighbours.swap(lists);
+  lists.resize(beginLists(cursor));
+  offsets = cursor;
+  forEachEdge(mesh, out, [&](std::uint32_t a, std::uint32_t b) { lists[cursor[a]++] = b; });
+  std::uint32_t write = 0;
+  for (std::size_t v = 0; v < count; ++v) {  // in place: sorted, and nothing twice
+    std::uint32_t *begin = lists.data() + offsets[v], *end = lists.data() + offsets[v + 1];
+    sortShort(begin, end);
+    offsets[v] = write;
+    write = static_cast<std::uint32_t>(std::unique_copy(begin, end, lists.data() + write) - lists.data());
   }
-  out.neighbours.shrink_to_fit();
+  offsets[count] = write;
+  lists.resize(write);
+
+  // Edges a -> b without a way back. As a ascends, so do the entries of b's list that it is looked for in.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> oneWay;
+  cursor = offsets;
+  for (std::uint32_t a = 0; a < count; ++a)
+    for (const std::uint32_t b : out.neighboursOf(a)) {
+      std::uint32_t& at = cursor[b];
+      while (at < offsets[b + 1] && lists[at] < a) ++at;
+      if (at == offsets[b + 1] || lists[at] != a) oneWay.emplace_back(a, b);
+    }
+  if (!oneWay.empty()) {
+    std::fill(cursor.begin(), cursor.end(), 0u);
+    for (const auto& [a, b] : oneWay) ++cursor[b];
+    for (std::size_t v = 0; v < count; ++v) cursor[v] += offsets[v + 1] - offsets[v];
+    std::vector<std::uint32_t> all(beginLists(cursor)), begins = cursor;
+    for (std::uint32_t v = 0; v < count; ++v)
+      for (const std::uint32_t w : out.neighboursOf(v)) all[cursor[v]++] = w;
+    for (const auto& [a, b] : oneWay) all[cursor[b]++] = a;
+    for (std::size_t v = 0; v < count; ++v)
+      if (begins[v + 1] - begins[v] > offsets[v + 1] - offsets[v])
+        sortShort(all.data() + begins[v], all.data() + begins[v + 1]);
+    offsets.swap(begins);
+    lists.swap(all);
+  }
+  lists.shrink_to_fit();
 }
 
 }  // namespace
