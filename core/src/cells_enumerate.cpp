@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The decoder's enumeration of coplanar sets: all of them, so that nothing depends on the order of the vertices.
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "quadmark/cells.h"
@@ -12,26 +13,43 @@ namespace {
 // A set is seen from several seeds. Chains by lowest vertex find the repeats without sorting or hashing all sets.
 class UniqueSets {
  public:
-  explicit UniqueSets(std::uint32_t vertices) : head_(vertices, kNoVertex) {}
+  /// @param vertices  of the mesh.
+  /// @param seeds     how many neighbourhoods will be looked at: a few share fewer chains.
+  UniqueSets(std::size_t vertices, std::size_t seeds) {
+    constexpr std::size_t kChainsPerSeed = 4;
+    std::size_t chains = 64;
+    while (chains < kChainsPerSeed * seeds) chains *= 2;
+    if (chains >= vertices)
+      head_.assign(vertices, kNone);
+    else
+      head_.assign(chains, kNone), mask_ = static_cast<std::uint32_t>(chains - 1);
+  }
 
   // Expects ids sorted ascending; true the first time.
   bool insert(const std::uint32_t ids[4]) {
-    for (std::uint32_t at = head_[ids[0]]; at != kNoVertex; at = entries_[at].next) {
-      const Entry& e = entries_[at];
-      if (e.id[0] == ids[1] && e.id[1] == ids[2] && e.id[2] == ids[3]) return false;
+    std::uint32_t& head = head_[ids[0] & mask_];
+    for (std::uint32_t at = head; at != kNone;) {
+      const Entry& e = entry(at);
+      if (e.id[0] == ids[0] && e.id[1] == ids[1] && e.id[2] == ids[2] && e.id[3] == ids[3]) return false;
+      at = e.next;
     }
-    entries_.push_back({{ids[1], ids[2], ids[3]}, head_[ids[0]]});
-    head_[ids[0]] = static_cast<std::uint32_t>(entries_.size() - 1);
+    if (count_ % kBlock == 0) blocks_.push_back(std::make_unique<Entry[]>(kBlock));
+    entry(count_) = {{ids[0], ids[1], ids[2], ids[3]}, head};
+    head = count_++;
     return true;
   }
 
  private:
+  static constexpr std::uint32_t kNone = 0xffffffffu, kBlock = 1u << 12;
   struct Entry {
-    std::uint32_t id[3];
+    std::uint32_t id[4];
     std::uint32_t next;
   };
+  [[nodiscard]] Entry& entry(std::uint32_t index) { return blocks_[index / kBlock][index % kBlock]; }
+
   std::vector<std::uint32_t> head_;
-  std::vector<Entry> entries_;
+  std::uint32_t mask_ = 0xffffffffu, count_ = 0;
+  std::vector<std::unique_ptr<Entry[]>> blocks_;  ///< a growing vector would copy them all, and hold them twice
 };
 
 void sortFour(std::uint32_t ids[4]) {
@@ -104,10 +122,10 @@ void forEachCoplanarSet(const WeldedMesh& welded, const std::vector<double>& pos
                         const GapLimit& limit, const std::vector<std::uint8_t>& skip,
                         const std::function<void(const Quad&)>& visit, const std::vector<std::uint32_t>* seeds,
                         const std::vector<std::uint32_t>* ownerOf) {
-  UniqueSets unique(welded.vertexCount());
+  const std::size_t count = seeds != nullptr ? seeds->size() : welded.vertexCount();
+  UniqueSets unique(welded.vertexCount(), count);
   std::vector<std::uint32_t> members;
   RingSets ring;
-  const std::size_t count = seeds != nullptr ? seeds->size() : welded.vertexCount();
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t v = seeds != nullptr ? (*seeds)[i] : static_cast<std::uint32_t>(i);
     if (!neighbourhood(welded, v, k, members)) continue;

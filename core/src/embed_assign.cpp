@@ -17,12 +17,14 @@ namespace {
 constexpr std::size_t kWindow = 32;
 constexpr std::size_t kScarceRepeats = 8;
 
+using Row = std::array<double, kWindow>;  // one number for each of a window's pieces
+
 // For each label met in a window, the ratio that each of the window's pieces asks for: what makes the cost table a plain
 // loop over numbers.
 class LabelRows {
  public:
   template <class RatioOf>
-  const std::array<double, kWindow>& find(std::uint32_t prefix1, std::uint32_t prefix2, const RatioOf& ratioOf) {
+  const Row& find(std::uint32_t prefix1, std::uint32_t prefix2, const RatioOf& ratioOf) {
     const std::uint64_t label = std::uint64_t{prefix1} << 32 | prefix2;
     const auto at = std::find(labels_.begin(), labels_.end(), label);
     const auto row = static_cast<std::size_t>(at - labels_.begin());
@@ -36,8 +38,27 @@ class LabelRows {
 
  private:
   std::vector<std::uint64_t> labels_;
-  std::deque<std::array<double, kWindow>> rows_;
+  std::deque<Row> rows_;
 };
+
+constexpr double kIllegal = 1e30;
+
+// A diagonal of a cell: its ratio, and what a step of it costs.
+struct Side {
+  double ratio, weight;
+};
+
+// Lowers costs to those of the ratios to1 and to2 where these are far enough apart and not too large. A loop over
+// numbers alone, without branches, so that it vectorises.
+void lowerCosts(const Row& to1, const Row& to2, Side side1, Side side2, double leastApart, double largest, Row& costs) {
+  for (std::size_t j = 0; j < kWindow; ++j) {
+    const double d1 = (to1[j] - side1.ratio) * side1.weight, d2 = (to2[j] - side2.ratio) * side2.weight;
+    const double cost = d1 * d1 + d2 * d2;
+    const double apart = to2[j] - to1[j] >= leastApart ? cost : kIllegal;
+    const double legal = to2[j] <= largest ? apart : kIllegal;
+    costs[j] = legal < costs[j] ? legal : costs[j];
+  }
+}
 
 std::uint64_t spread(std::uint64_t x) {  // two zero bits between the lower 21 bits
   x &= 0x1fffff;
@@ -153,31 +174,29 @@ Status Embedder::adoptOrphans(const std::vector<std::uint32_t>& order) {
 // models at a fraction of the Hungarian method's cubic cost.
 void Embedder::assignWindow(std::span<std::uint32_t> cells, std::uint32_t firstPiece) {
   const std::size_t n = cells.size();
+  for (const std::uint32_t cell : cells) __builtin_prefetch(&cells_[cell].quad.ratioAC);  // far apart in memory
   std::array<float, kWindow * kWindow> cost;
   const DigitSlot &index = codec_.indexSlot(), &piece = codec_.pieceSlot();
   LabelRows rows;
   for (std::size_t i = 0; i < n; ++i) {
     const Quad& q = cells_[cells[i]].quad;
     const bool acFirst = q.ratioAC <= q.ratioBD;
-    const double r1 = acFirst ? q.ratioAC : q.ratioBD, r2 = acFirst ? q.ratioBD : q.ratioAC;
-    const double w1 = acFirst ? q.lengthAC : q.lengthBD, w2 = acFirst ? q.lengthBD : q.lengthAC;
-    const std::uint32_t natural1 = index.read(r1).prefix, natural2 = piece.read(r2).prefix;
-    std::array<double, kWindow> best;
-    best.fill(1e30);
+    const Side ac = {q.ratioAC, q.lengthAC}, bd = {q.ratioBD, q.lengthBD};
+    const Side side1 = acFirst ? ac : bd, side2 = acFirst ? bd : ac;
+    const std::uint32_t natural1 = index.read(side1.ratio).prefix, natural2 = piece.read(side2.ratio).prefix;
+    Row best, to1;
+    best.fill(kIllegal);
     // The present prefixes and their neighbours; plan() will look further. Among them the order of the ratios decides.
-    for (std::uint32_t p1 = natural1 - (natural1 > 0); p1 <= natural1 + 1; ++p1)
+    for (std::uint32_t p1 = natural1 - (natural1 > 0); p1 <= natural1 + 1; ++p1) {
+      const double from = index.centre(p1, firstPiece), step = index.cellWidth();
+      for (std::size_t j = 0; j < kWindow; ++j) to1[j] = from + static_cast<double>(static_cast<int>(j)) * step;
       for (std::uint32_t p2 = std::max(natural2 - (natural2 > 0), p1); p2 <= natural2 + 1; ++p2) {
-        const std::array<double, kWindow>& to2 = rows.find(p1, p2, [&](std::size_t j) {
+        const Row& to2 = rows.find(p1, p2, [&](std::size_t j) {
           return j < n ? piece.centre(p2, padded_(static_cast<std::uint32_t>(firstPiece + j), p1, p2)) : 1.0;
         });
-        const double from1 = index.centre(p1, firstPiece), step = index.cellWidth();
-        for (std::size_t j = 0; j < n; ++j) {
-          const double to1 = from1 + static_cast<double>(j) * step;
-          const double d1 = (to1 - r1) * w1, d2 = (to2[j] - r2) * w2, c = d1 * d1 + d2 * d2;
-          const bool legal = codec_.ordered(to1, to2[j]) && to2[j] <= piece.maxRatio();
-          best[j] = legal && c < best[j] ? c : best[j];
-        }
+        lowerCosts(to1, to2, side1, side2, codec_.leastApart(), piece.maxRatio(), best);
       }
+    }
     for (std::size_t j = 0; j < n; ++j) cost[i * n + j] = static_cast<float>(best[j]);
   }
   std::array<std::uint32_t, kWindow> chosen;
