@@ -79,8 +79,8 @@ void Embedder::repair(const std::vector<std::uint32_t>& bad, const Extraction& r
 
 // Checks the output itself. Returns the number of bad pieces.
 std::size_t Embedder::check(bool mayRepair, std::uint64_t& salt) {
-  const std::vector<std::uint32_t> bad = badPieces(read());
-  if (mayRepair && !bad.empty()) repair(bad, read(true), salt);
+  const std::vector<std::uint32_t> bad = badPieces(read({}));
+  if (mayRepair && !bad.empty()) repair(bad, read({.keepReadings = true}), salt);
   return bad.size();
 }
 
@@ -100,9 +100,9 @@ std::size_t Embedder::checkMapped(const AffineMap& map, bool mayRepair, std::uin
   }
   const bool known = std::exchange(flatSetsKnown_, false);  // what is flat in the copy is to be found out
   const std::span<const double> halfStep = std::exchange(rounding_.halfStep, {});  // a map leaves nothing on its grid
-  Extraction first = read();
+  Extraction first = read({});
   const std::vector<std::uint32_t> bad = badPieces(first);
-  if (mayRepair && !bad.empty()) first = read(true);
+  if (mayRepair && !bad.empty()) first = read({.keepReadings = true});
   if (narrow)
     positions_.assign(kept32.begin(), kept32.end());
   else
@@ -124,9 +124,10 @@ bool Embedder::weldsAlike() const {
 
 // The decoder sees a file only through its welded mesh, so a file with permuted vertices and faces is the same welded
 // mesh with other numbers. Giving this one other numbers saves the second weld and all the memory of a second mesh.
-void Embedder::renumber() {
+// Returns the order, old numbers: blocks of 1024 in scattered order, each back to front with a stride, far from the
+// file's order but near in memory. The neighbours keep the old numbers until renumberEdges().
+std::vector<std::uint32_t> Embedder::renumberVertices() {
   const std::uint32_t count = welded_.vertexCount();
-  // Blocks of 1024 in scattered order, each back to front with a stride: far from the file's order, near in memory.
   constexpr std::uint32_t kBlock = 1024;
   std::vector<std::uint32_t> oldOf, numberOf(count);
   oldOf.reserve(count);
@@ -164,8 +165,14 @@ void Embedder::renumber() {
     welded_.halfStep.swap(halfStep);
     rounding_.halfStep = welded_.halfStep;
   }
+  return oldOf;
+}
+
+void Embedder::renumberEdges(const std::vector<std::uint32_t>& oldOf) {
+  std::vector<std::uint32_t> numberOf(oldOf.size());
+  for (std::uint32_t number = 0; number < oldOf.size(); ++number) numberOf[oldOf[number]] = number;
   std::vector<std::uint32_t> offsets, neighbours;
-  offsets.reserve(std::size_t{count} + 1);
+  offsets.reserve(oldOf.size() + 1);
   neighbours.reserve(welded_.neighbours.size());
   for (std::uint32_t old : oldOf) {
     offsets.push_back(static_cast<std::uint32_t>(neighbours.size()));
@@ -177,9 +184,19 @@ void Embedder::renumber() {
   welded_.neighbours.swap(neighbours);
 }
 
-Extraction Embedder::read(bool keepReadings) const {
-  ExtractOptions options;
-  options.keepReadings = keepReadings;
+// Whether the decoder reads everything from a reordered copy. Nothing can be done with the embedder afterwards.
+bool Embedder::checkReordered() {
+  const std::vector<std::uint32_t> oldOf = renumberVertices();
+  // The known flat sets are nearly always enough, and then the decoder does not ask for neighbours.
+  if (flatSetsKnown_) {
+    const Extraction fromKnown = read({.exactOnly = true});
+    if (!fromKnown.cancelled) return badPieces(fromKnown).empty();
+  }
+  renumberEdges(oldOf);
+  return badPieces(read({})).empty();
+}
+
+Extraction Embedder::read(ExtractOptions options) const {
   options.bitsOnly = true;
   // Right after separate() the sets that are flat in the output are known: the cells, and what could not be broken. Other
   // numbers change nothing about that: which sets are flat is decided by makeQuad(), whose arithmetic sees positions only.
@@ -223,11 +240,7 @@ Status Embedder::verify(const MeshProgress& progress) {
     report_.guarantees.unattacked = check(false, salt) == 0;
     report_.guarantees.affine = checkMapped(maps.back(), false, salt) == 0;
   }
-  report_.guarantees.reordered = false;
-  if (weldsAlike()) {
-    renumber();
-    report_.guarantees.reordered = badPieces(read()).empty();
-  }
+  report_.guarantees.reordered = weldsAlike() && checkReordered();
   return okStatus();
 }
 

@@ -96,9 +96,11 @@ class Embedder {
   Status verify(const MeshProgress& progress);
   std::size_t check(bool mayRepair, std::uint64_t& salt);
   std::size_t checkMapped(const AffineMap& map, bool mayRepair, std::uint64_t& salt);
-  void renumber();
+  std::vector<std::uint32_t> renumberVertices();
+  void renumberEdges(const std::vector<std::uint32_t>& oldOf);
+  [[nodiscard]] bool checkReordered();
   [[nodiscard]] bool weldsAlike() const;
-  [[nodiscard]] Extraction read(bool keepReadings = false) const;
+  [[nodiscard]] Extraction read(ExtractOptions options) const;
   [[nodiscard]] std::vector<std::uint32_t> badPieces(const Extraction& read) const;
   void repair(const std::vector<std::uint32_t>& bad, const Extraction& read, std::uint64_t& salt);
 

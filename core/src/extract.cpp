@@ -59,6 +59,10 @@ class Extractor {
     out_.passes = 1;
     out_.exactCells = voters();
     settle(1);
+    if (options_.exactOnly && !complete()) {
+      out_.cancelled = true;
+      return std::move(out_);
+    }
     // Pass 2 of the paper, in steps: only when something is missing, and only while it still finds more than chance.
     // "All pieces were seen" would be no reason to stop: garbage covers everything (D21).
     double units = kExactUnits;

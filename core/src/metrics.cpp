@@ -26,22 +26,31 @@ std::vector<std::uint8_t> usedVertices(const Mesh& mesh) {
   return used;
 }
 
+struct NormalPair {
+  Point before, after;
+};
+
 /// Area-weighted normals per welded vertex, not normalised. A polygon counts by its vector area (Newell), the same for
 /// any choice of first corner.
-std::vector<Point> vertexNormals(const Mesh& mesh, const std::vector<double>& positions, const WeldedMesh& welded) {
-  std::vector<Point> normals(welded.vertexCount());
-  const std::size_t faces = mesh.faceCount();
-  for (std::size_t f = 0; f < faces; ++f) {
-    const std::size_t begin = mesh.faceBegin(f), end = mesh.faceEnd(f);
-    if (end - begin < 3) continue;
+std::vector<NormalPair> vertexNormals(const Mesh& mesh, const std::vector<double>& marked, const WeldedMesh& welded) {
+  std::vector<NormalPair> normals(welded.vertexCount());
+  const auto areaOf = [&](const std::vector<double>& positions, std::size_t begin, std::size_t end) {
     const Point first = pointAt(positions, mesh.faceVertices[begin]);
     Point area;
     for (std::size_t c = begin + 2; c < end; ++c)
       area = area + cross(pointAt(positions, mesh.faceVertices[c - 1]) - first,
                           pointAt(positions, mesh.faceVertices[c]) - first);
+    return area;
+  };
+  const std::size_t faces = mesh.faceCount();
+  for (std::size_t f = 0; f < faces; ++f) {
+    const std::size_t begin = mesh.faceBegin(f), end = mesh.faceEnd(f);
+    if (end - begin < 3) continue;
+    const Point before = areaOf(mesh.positions, begin, end), after = areaOf(marked, begin, end);
     for (std::size_t c = begin; c < end; ++c) {
-      Point& normal = normals[welded.weldedOf[mesh.faceVertices[c]]];
-      normal = normal + area;
+      NormalPair& normal = normals[welded.weldedOf[mesh.faceVertices[c]]];
+      normal.before = normal.before + before;
+      normal.after = normal.after + after;
     }
   }
   return normals;
@@ -77,15 +86,14 @@ void measureDisplacement(const Mesh& original, const std::vector<double>& marked
 void measureNormals(const Mesh& original, const std::vector<double>& marked, const WeldedMesh& welded,
                     Distortion& out) {
   constexpr double kPi = 3.14159265358979323846;
-  const std::vector<Point> before = vertexNormals(original, original.positions, welded);
-  const std::vector<Point> after = vertexNormals(original, marked, welded);
+  const std::vector<NormalPair> normals = vertexNormals(original, marked, welded);
   double count = 0, squares = 0, sum = 0;
-  for (std::size_t v = 0; v < before.size(); ++v) {
-    if (!(squared(before[v]) > 0) || !(squared(after[v]) > 0)) continue;
+  for (const auto& [before, after] : normals) {
+    if (!(squared(before) > 0) || !(squared(after) > 0)) continue;
     // atan2 of sine and cosine is exact for the tiny angles met here, where acos is not.
     count += 1;
-    if (before[v].x == after[v].x && before[v].y == after[v].y && before[v].z == after[v].z) continue;
-    const double angle = std::atan2(std::sqrt(squared(cross(before[v], after[v]))), dot(before[v], after[v]));
+    if (before.x == after.x && before.y == after.y && before.z == after.z) continue;
+    const double angle = std::atan2(std::sqrt(squared(cross(before, after))), dot(before, after));
     squares += angle * angle;
     sum += angle;
   }

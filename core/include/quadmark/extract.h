@@ -41,13 +41,14 @@ struct Extraction {
   std::uint32_t piecesRead = 0;        ///< pieces with at least one vote of weight
   int passes = 0;
   double agreement = 1;                ///< how far copies of a bit agree, of what their purity promises: 0..1; 1 if untested
-  bool cancelled = false;              ///< progress said stop; nothing else is meaningful then
+  bool cancelled = false;              ///< progress said stop, or exactOnly; nothing else is meaningful then
 };
 
 struct ExtractOptions {
   std::span<const std::uint8_t> reference;  ///< expected payload bits, empty for none
   /// For a caller that knows them: all sets that are flat up to rounding, so that pass 1 need not look for them.
   std::span<const std::array<std::uint32_t, 4>> exactSets;
+  bool exactOnly = false;                   ///< cancels where these sets alone do not settle every bit
   bool keepReadings = false;
   bool bitsOnly = false;                    ///< leave the verdict, its probabilities and the agreement out
   std::function<bool(int passes)> progress; ///< called before each pass with the number done; false cancels
