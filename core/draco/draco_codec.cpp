@@ -131,6 +131,7 @@ Result<DracoMesh> decodeDraco(Bytes stream, const std::vector<DracoAttribute>& a
 
   const draco::Mesh& mesh = *decoded.mesh;
   const std::uint32_t pointCount = mesh.num_points();
+  if (pointCount == 0) return badFile(place + ": the Draco data has no points");
   DracoMesh out;
   out.pointCount = pointCount;
   out.indices.reserve(std::size_t{mesh.num_faces()} * 3);

@@ -25,22 +25,15 @@ struct Flattened {
   }
 };
 
-// Twice the vector area of a face (Newell).
-template <class PositionOf>
-Point faceNormal(const Mesh& mesh, const WeldedMesh& welded, std::uint32_t face, const PositionOf& positionOf) {
-  Point n{{0, 0, 0}};
-  const std::size_t begin = mesh.faceBegin(face), end = mesh.faceEnd(face);
-  const auto at = [&](std::size_t corner) { return positionOf(welded.weldedOf[mesh.faceVertices[corner]]); };
-  const double* p = at(end - 1);
-  for (std::size_t corner = begin; corner < end; ++corner) {
-    const double* q = at(corner);
-    n.v[0] += (p[1] - q[1]) * (p[2] + q[2]);
-    n.v[1] += (p[2] - q[2]) * (p[0] + q[0]);
-    n.v[2] += (p[0] - q[0]) * (p[1] + q[1]);
-    p = q;
+// Twice the vector area of a face (Newell), summed corner by corner.
+struct FaceNormal {
+  double x = 0, y = 0, z = 0;
+  void add(const double* p, const double* q) {
+    x += (p[1] - q[1]) * (p[2] + q[2]);
+    y += (p[2] - q[2]) * (p[0] + q[0]);
+    z += (p[0] - q[0]) * (p[1] + q[1]);
   }
-  return n;
-}
+};
 
 // Makes a nearly flat quadrilateral flat at the least total displacement: the gap between its diagonals is closed by
 // moving each end in proportion to its share of the crossing point.
@@ -162,15 +155,30 @@ class Searcher {
     return false;
   }
 
+  // Would any face at the four points point the other way?
   [[nodiscard]] bool flips(const Flattened& flat) const {
-    const double* positions = welded_.positions.data();
     for (std::uint32_t vertex : flat.vertex)
-      for (std::uint32_t face : rings_.facesOf(vertex)) {
-        const Point before = faceNormal(mesh_, welded_, face, [&](std::uint32_t w) { return positions + 3 * std::size_t{w}; });
-        const Point after = faceNormal(mesh_, welded_, face, [&](std::uint32_t w) { return flat.position(w, positions); });
-        if (before.v[0] * after.v[0] + before.v[1] * after.v[1] + before.v[2] * after.v[2] < 0) return true;
-      }
+      for (std::uint32_t face : rings_.facesOf(vertex))
+        if (turnsOver(face, flat)) return true;
     return false;
+  }
+
+  [[nodiscard]] bool turnsOver(std::uint32_t face, const Flattened& flat) const {
+    const double* positions = welded_.positions.data();
+    const auto vertexAt = [&](std::size_t corner) { return welded_.weldedOf[mesh_.faceVertices[corner]]; };
+    const std::size_t begin = mesh_.faceBegin(face), end = mesh_.faceEnd(face);
+    FaceNormal before, after;
+    const std::uint32_t last = vertexAt(end - 1);
+    const double *p = positions + 3 * std::size_t{last}, *moved = flat.position(last, positions);
+    for (std::size_t corner = begin; corner < end; ++corner) {
+      const std::uint32_t vertex = vertexAt(corner);
+      const double *q = positions + 3 * std::size_t{vertex}, *movedQ = flat.position(vertex, positions);
+      before.add(p, q);
+      after.add(moved, movedQ);
+      p = q;
+      moved = movedQ;
+    }
+    return before.x * after.x + before.y * after.y + before.z * after.z < 0;
   }
 
   double largestNormal2(int i, int j, int k, int l) const {
