@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // quadmark_robust: the harness behind docs/robust.md. Marks models, damages them, reads the marks back.
 //
-//   quadmark_robust [--keys FIRST-LAST] [--strength invisible|standard|strong] [--payload id|image] [--rows attacks|tools]
-//                   [--results FILE] MODEL...
+//   quadmark_robust [--keys FIRST-LAST] [--strength invisible|standard|strong] [--payload id|image]
+//                   [--rows attacks|tools|none] [--results FILE] MODEL...
 //
 // MODEL is as in robust_models.h. Prints, and appends to FILE, two kinds of lines; those that FILE has already are
 // neither computed nor written again:
@@ -42,7 +42,7 @@ using Fields = std::vector<std::string>;
 struct Settings {
   int firstKey = 1, lastKey = 3;
   Strength strength = Strength::standard;
-  bool image = false, tools = false;
+  bool image = false, attacks = true, tools = false;
 };
 
 SchemeKeys keysOf(int number) {
@@ -133,7 +133,7 @@ void runKey(const bench::NamedModel& model, int key, const Settings& settings, b
   };
   std::vector<bench::NamedAttack> attacks;
   std::vector<bench::NamedTool> tools;
-  if (!settings.tools)
+  if (settings.attacks)
     for (const bench::NamedAttack& attack : bench::robustAttacks())
       if ((!settings.image || bench::isForImages(attack.name)) && !results.has(keyOf("read", attack.name)))
         attacks.push_back(attack);
@@ -195,7 +195,7 @@ int main(int argc, char** argv) {
     } else if (argument == "--payload") {
       settings.image = value == "image";
     } else if (argument == "--rows") {
-      settings.tools = value == "tools";
+      settings.attacks = value == "attacks", settings.tools = value == "tools";
     } else if (argument == "--results") {
       path = value;
     } else {

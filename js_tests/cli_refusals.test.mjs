@@ -56,7 +56,8 @@ test('usage mistakes are exit 2', async (t) => {
   await refuses(['embed', 'in.ply', 'out.glb', ...EMBED], 2, /out\.glb: marking does not convert/);
   await refuses(['embed', '-', 'out.ply', '--key', '-', '--image', 'logo.png'], 2, /only once/);
   await refuses(['extract', '--key', 'key.json'], 2, /missing required argument/);
-  await refuses(['keygen', 'new.json'], 2, /exactly one of --image, --size and --id-bits/);
+  await refuses(['keygen', 'new.json', '--scheme', 'paper'], 2, /exactly one of --image, --size and --id-bits/);
+  await refuses(['keygen', 'new.json', '-L', '3'], 2, /exactly one of --image, --size and --id-bits/);
   await refuses(['keygen', 'new.json', '--size', '24'], 2, /WIDTHxHEIGHT/);
   await refuses(['keygen', 'new.json', '--id-bits', '32'], 2, /only 64/);
   await refuses(['keygen', 'new.json', '--size', '24x24', '--scheme', 'sturdy'], 2, /not available in this version/);

@@ -14,7 +14,7 @@ async function workspace(t) {
   writeFileSync(join(folder, 'in.ply'), ply);
   writeFileSync(join(folder, 'logo.png'), logoPng(logo(12)));
   const cli = (...args) => quadmark(args, { cwd: folder });
-  const made = await cli('keygen', 'key.json', '--scheme', 'robust', '--owner', 'the tests');
+  const made = await cli('keygen', 'key.json', '--owner', 'the tests');
   assert.equal(made.status, 0, made.stderr);
   assert.match(made.stdout.toString(), /scheme robust/);
   return { cli, exists: (name) => existsSync(join(folder, name)) };
@@ -55,6 +55,16 @@ test('an image is written where there is one', async (t) => {
   const none = await cli('extract', 'in.ply', '--key', 'key.json', '--image-out', 'none.png');
   assert.deepEqual([none.status, exists('none.png')], [3, false]);
   assert.match(none.stderr.toString(), /no image was found/);
+});
+
+test('options that only keys of scheme paper know make such a key, and say so', async (t) => {
+  const { cli } = await workspace(t);
+  const made = await cli('keygen', 'sized.json', '--size', '24x24', '--json');
+  assert.deepEqual([made.status, made.json[0].scheme, made.json[0].params.width], [0, 'paper', 24]);
+  assert.match(made.json[0].warnings[0], /--size makes this a key of scheme paper/);
+  assert.match(made.stderr.toString(), /without it the key is of scheme robust/);
+  const asked = await cli('keygen', 'asked.json', '--scheme', 'paper', '--size', '24x24', '--json');
+  assert.deepEqual([asked.json[0].scheme, asked.json[0].warnings], ['paper', []]);
 });
 
 test('wrong use is exit 2, with the reason', async (t) => {

@@ -156,7 +156,8 @@ test('wrong arguments are refused, misspelt ones too', async () => {
   for (const id of ['', 'xyz', '11112222333344445', -1n, 1n << 64n, 5]) {
     await fails(embed(ply, { key: idKey, id }), 'bad_option', /id: expected/);
   }
-  await fails(createKey({}), 'bad_option', /width and height/);
+  await fails(createKey({ scheme: 'paper' }), 'bad_option', /width and height/);
+  await fails(createKey({ L: 3 }), 'bad_option', /width and height/);
   await fails(createKey({ width: 24 }), 'bad_option', /height/);
   await fails(createKey({ width: 24, height: 24, id: true }), 'bad_option', /either/);
   await fails(createKey({ width: 24, height: 24, scheme: 'sturdy' }), 'bad_option', /"sturdy" is not available in this version/);

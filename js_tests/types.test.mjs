@@ -64,11 +64,12 @@ test('correct use compiles under strict', (t) => {
     const { verdict, image, id } = await extract(damaged.bytes, { key: JSON.stringify(key), reference: bytes });
     const text: 'match' | 'none' | 'inconclusive' = verdict;
     const confidence: Float32Array | undefined = image?.confidence;
-    const robust: RobustKey = await createKey({ scheme: 'robust', owner: 'me' });
+    const robust: RobustKey = await createKey({ owner: 'me' });
+    const bare: RobustKey = await createKey(), named2: RobustKey = await createKey({ scheme: 'robust' });
     const named = await embed(model, { key: robust, text: 'chair 42', options: { strength: 'strong', maxError: 1e-3, salt: 'chair', selfTest: true } });
     const found = await extract(named.bytes, { key: robust, expectText: 'chair 42', options: { salt: 'chair' } });
     const name: string | null = found.text, evidence: Float32Array = found.evidence;
-    console.log(name, evidence.length);
+    console.log(name, evidence.length, bare.scheme, named2.scheme);
     const hex: string | null = id;
     try { await inspect(model); } catch (error) {
       if (error instanceof QuadmarkError && error.code === 'bad_file') console.log(error.message);

@@ -2,7 +2,9 @@
 // The calls on bytes under keys of scheme `robust`.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "quadmark/lab/attacks.h"
 #include "quadmark/lab/generate.h"
@@ -98,6 +100,37 @@ TEST(RobustCalls, SurviveQuantizationToFourteenBits) {
   ASSERT_TRUE(parsed);
   const std::vector<std::uint8_t> worn = writePly(quantize((*parsed)->mesh(), 14, Grid::common));
   EXPECT_EQ(extracted(worn, {.key = robustKey()}).id, 0x0123456789abcdefu);
+}
+
+// One mesh beside another, of vertices that are its own.
+Mesh beside(Mesh left, const Mesh& right, double shift) {
+  const auto first = static_cast<std::uint32_t>(left.vertexCount());
+  for (std::size_t i = 0; i < right.positions.size(); ++i)
+    left.positions.push_back(right.positions[i] + (i % 3 == 0 ? shift : 0));
+  for (const std::uint32_t v : right.faceVertices) left.faceVertices.push_back(first + v);
+  roundToPrecision(left);
+  return left;
+}
+
+TEST(RobustCalls, FindTheMarkedObjectAmongOthers) {
+  const auto parsed = readModel(marked());
+  ASSERT_TRUE(parsed);
+  const Mesh worn = simplifyMeshopt((*parsed)->mesh(), 0.75);
+  Mesh scene = machinedPart(20000);
+  for (int i = 1; i <= 2; ++i) scene = beside(std::move(scene), machinedPart(20000, 7), 4.0 * i);
+  const std::size_t others = scene.vertexCount();
+  scene = beside(std::move(scene), worn, -4);
+  ExtractRequest request{.key = robustKey()};
+  request.expectedId = 0x0123456789abcdef;
+  const ExtractResponse read = extracted(writePly(scene), request);
+  EXPECT_EQ(read.verdict, "match");
+  EXPECT_TRUE(has(read.reportJson, "\"readFrom\":\"component\""));
+  ASSERT_EQ(read.evidence.size(), scene.vertexCount());
+  for (std::size_t v = 0; v < others; ++v) ASSERT_EQ(read.evidence[v], 0) << v;
+  EXPECT_GT(std::count_if(read.evidence.begin(), read.evidence.end(), [](float e) { return e > 0.5f; }), 100);
+  // The same objects without a mark.
+  const Mesh plain = beside(machinedPart(4000), sculpture(3000), -4);
+  EXPECT_EQ(extracted(writePly(plain), request).verdict, "none");
 }
 
 TEST(RobustCalls, BringTextsBack) {

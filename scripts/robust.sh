@@ -43,7 +43,7 @@ if [ -z "$only_tables" ]; then
       list id standard attacks "$key" $real $scans $parts $grids $subdivisions $coarse
       list image standard attacks "$key" $pictures
       for strength in standard strong; do list id "$strength" tools "$key" $real; done
-      list id invisible attacks "$key" $real
+      list id invisible none "$key" $real
     done
   } | xargs -P "$jobs" -L 1 build/native/bench/quadmark_robust >/dev/null 2>>build/robust.log
 fi

@@ -5,7 +5,7 @@
 
 #include "quadmark/exact_math.h"
 #include "quadmark/robust/marker.h"
-#include "quadmark/robust/mesh_source.h"
+#include "quadmark/robust/parts.h"
 #include "quadmark_calls.h"
 #include "report_robust.h"
 
@@ -15,7 +15,6 @@ namespace {
 using robust::kLeastPositions;
 using robust::MarkedMesh;
 using robust::Payload;
-using robust::PayloadBits;
 using robust::RobustEmbedding;
 
 // A pixel whose log odds are below this is marked as unread, as in the other scheme.
@@ -148,31 +147,25 @@ Result<ExtractResponse> extractRobustFile(std::span<const std::uint8_t> file, co
   if (!model) return model.error();
   if (!tell(request.progress, "search", 0.2)) return cancelled();
 
-  robust::MeshReader reader((*model)->mesh(), keys->geometry, robust::headCode());
-  robust::MeshSource source(reader);
-  robust::ReadRequest read{*keys, expectedOf(request)};
+  robust::SceneRequest read{*keys, expectedOf(request)};
   read.progress = [&](double done) { return tell(request.progress, "search", 0.2 + 0.7 * done); };
-  auto reading = robust::readMark(source, read);
-  if (!reading) return reading.error();
-  if (reading->cancelled || !tell(request.progress, "report", 0.95)) return cancelled();
+  auto scene = robust::readScene((*model)->mesh(), read);
+  if (!scene) return scene.error();
+  const robust::MarkReading& reading = scene->reading;
+  if (reading.cancelled || !tell(request.progress, "report", 0.95)) return cancelled();
 
   ExtractResponse response;
-  response.verdict = verdictName(reading->verdict);
-  response.falsePositive = reading->falsePositive;
-  response.id = reading->id();
-  response.text = reading->text();
-  showImage(*reading, response);
+  response.verdict = verdictName(reading.verdict);
+  response.falsePositive = reading.falsePositive;
+  response.id = reading.id();
+  response.text = reading.text();
+  showImage(reading, response);
   std::optional<double> ber;
   if (request.reference && !response.erased.empty() && response.erased.size() == request.reference->bits.size())
     ber = bitErrorRate(request.reference->bits, response.image.bits, response.erased);
-  if (reading->frame && reading->hypothesis) {
-    const auto shape = robust::bodyShape(*reading->frame);
-    PayloadBits bits{*reading->frame, {}};
-    if (shape) bits.body = reading->body ? reading->body->bits : std::vector<std::uint8_t>(shape->bits(), 0);
-    response.evidence = reader.evidence(robust::encode(bits, *keys), *reading->hypothesis);
-  }
+  response.evidence = std::move(scene->evidence);
   const Evidence evidence = evidenceOf(**model, response.evidence);
-  response.reportJson = formatReport(RobustExtractReport{*reading, reader.coverage(), response.image, response.erased, ber,
+  response.reportJson = formatReport(RobustExtractReport{*scene, response.image, response.erased, ber,
                                                          evidence.vertices, evidence.perNode,
                                                          (*model)->info().warnings});
   tell(request.progress, "report", 1);

@@ -88,7 +88,7 @@ std::string formatReport(const RobustEmbedReport& r) {
 }
 
 std::string formatReport(const RobustExtractReport& r) {
-  const robust::MarkReading& m = r.reading;
+  const robust::MarkReading& m = r.scene.reading;
   JsonWriter json;
   json.beginObject();
   json.member("scheme", "robust");
@@ -141,13 +141,16 @@ std::string formatReport(const RobustExtractReport& r) {
   }
   json.member("hypotheses", m.hypotheses);
   json.member("cells", r.cells);
+  json.member("readFrom", r.scene.component ? "component" : "model");
+  json.member("readFromVertices", r.scene.coverage.vertices);
+  json.member("partsTried", r.scene.tried);
   json.key("coverage");
   json.beginObject();
-  json.member("carriers", r.coverage.carriers);
-  json.member("labels", r.coverage.labels);
-  json.member("positions", r.coverage.ringPositions);
-  json.member("diamonds", r.coverage.diamonds);
-  json.member("diamondShare", r.coverage.diamondShare);
+  json.member("carriers", r.scene.coverage.carriers);
+  json.member("labels", r.scene.coverage.labels);
+  json.member("positions", r.scene.coverage.ringPositions);
+  json.member("diamonds", r.scene.coverage.diamonds);
+  json.member("diamondShare", r.scene.coverage.diamondShare);
   json.endObject();
   writeNodes(json, r.perNode);
   json.member("warnings", r.warnings);

@@ -9,8 +9,7 @@
 #include "quadmark/image.h"
 #include "quadmark/metrics.h"
 #include "quadmark/robust/embedder.h"
-#include "quadmark/robust/mark.h"
-#include "quadmark/robust/reader.h"
+#include "quadmark/robust/parts.h"
 #include "quadmark/robust/self_test.h"
 #include "report.h"
 
@@ -37,8 +36,7 @@ struct RobustEmbedReport {
 [[nodiscard]] std::string formatReport(const RobustEmbedReport& report);
 
 struct RobustExtractReport {
-  const robust::MarkReading& reading;
-  const robust::ReaderCoverage& coverage;
+  const robust::SceneReading& scene;
   const BitImage& image;                     ///< 0 x 0 for none
   const std::vector<std::uint8_t>& erased;
   std::optional<double> ber;

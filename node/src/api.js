@@ -5,8 +5,10 @@ import { toBytes, toEntries, toIdDigits, toImage, toKeyJson, toText, known, isOb
 import { needsDraco } from './draco.js';
 import { QuadmarkError } from './error.js';
 
-/** The scheme of keys that are made without naming one. */
-export const DEFAULT_SCHEME = 'paper';
+/** The scheme of keys that are made without naming one and without anything that only keys of scheme paper hold. */
+export const DEFAULT_SCHEME = 'robust';
+
+const PAPER_KEY_MEMBERS = ['width', 'height', 'id', 'L', 'H1', 'L1', 'H2', 'L2', 'lambda', 'tau', 'k', 'keyedCells', 'scrambleOrder'];
 
 const LONG_CALL = ['onProgress', 'signal'];
 
@@ -133,10 +135,10 @@ export function createApi(loader, dracoLoader = loader) {
       return loader.call((api) => unwrap(api.externalUris(bytes)).uris);
     },
 
-    async createKey(request) {
-      const names = ['owner', 'scheme', 'width', 'height', 'id', 'L', 'H1', 'L1', 'H2', 'L2', 'lambda', 'tau', 'k',
-        'keyedCells', 'scrambleOrder'];
-      const { owner = '', scheme = DEFAULT_SCHEME, id = false, ...params } = known('request', request, names);
+    async createKey(request = {}) {
+      known('request', request, ['owner', 'scheme', ...PAPER_KEY_MEMBERS]);
+      const forPaper = PAPER_KEY_MEMBERS.some((name) => request[name] !== undefined);
+      const { owner = '', scheme = forPaper ? 'paper' : DEFAULT_SCHEME, id = false, ...params } = request;
       if (typeof owner !== 'string') throw new QuadmarkError('bad_option', 'owner: expected text');
       const secret = crypto.getRandomValues(new Uint8Array(32));
       const make = (core) => loader.call((api) => JSON.parse(unwrap(api.createKey({ ...core, secret, owner, scheme })).key));

@@ -178,16 +178,16 @@ export function inspect(model: Bytes, request?: { resources?: Resources }): Prom
 /** URIs of the external buffers that a glTF needs as `resources`; empty for GLB and PLY. */
 export function externalUris(model: Bytes): Promise<string[]>;
 
-/** What a key of scheme `robust` needs: nothing but perhaps an owner. */
+/** What a key of scheme `robust`, the default, needs: nothing but perhaps an owner. */
 export interface RobustKeyRequest {
-  owner?: string;
-  scheme: 'robust';
-}
-
-export interface PaperKeyRequest {
   /** Free text kept in the key file. */
   owner?: string;
-  /** The default. */
+  scheme?: 'robust';
+}
+
+/** Without `scheme`, any of the members below `owner` makes a key of scheme `paper`: no other key holds them. */
+export interface PaperKeyRequest {
+  owner?: string;
   scheme?: 'paper';
   /** Size of the image in pixels, 1 to 1024 a side ... */
   width?: number;
@@ -210,8 +210,8 @@ export interface PaperKeyRequest {
 export type KeyRequest = PaperKeyRequest | RobustKeyRequest;
 
 /** Makes a key around 32 random bytes of the platform's generator. */
+export function createKey(request?: RobustKeyRequest): Promise<RobustKey>;
 export function createKey(request: PaperKeyRequest): Promise<PaperKey>;
-export function createKey(request: RobustKeyRequest): Promise<RobustKey>;
 
 /** Checks a key and returns it in normal form; fails with `bad_key` or `unsupported_version`. */
 export function parseKey(key: KeyInput): Promise<Key>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // quadmark keygen: a key file around fresh random bytes.
+import { DEFAULT_SCHEME } from '../api.js';
 import { QuadmarkError } from '../error.js';
 import { createKey, decodeImage } from '../index_node.js';
 import { EXIT } from './exit.js';
@@ -20,13 +21,21 @@ async function payloadOf({ image, size, idBits }) {
   return { id: true };
 }
 
-/** A key of scheme robust fits every payload: options that say otherwise are a mistake. */
-function refusePaperOptions(options) {
-  const names = { image: '--image', size: '--size', idBits: '--id-bits', firstDigit: '--first-digit', keyedCells: '--keyed-cells', set: '--set' };
-  for (const [member, name] of Object.entries(names)) {
-    if (options[member] !== undefined) throw new QuadmarkError('bad_option', `${name} does not go with --scheme robust`);
+const PAPER_OPTIONS = {
+  image: '--image', size: '--size', idBits: '--id-bits', firstDigit: '--first-digit', keyedCells: '--keyed-cells', set: '--set',
+};
+
+/**
+ * The scheme that the options ask for: paper where one of them is about what only such keys hold, whatever the default.
+ * @return { scheme, because }  because: the option that decided, if one did
+ */
+function schemeOf(options) {
+  const [, because] = Object.entries(PAPER_OPTIONS).find(([member]) => options[member] !== undefined) ?? [];
+  if (options.scheme === 'robust' && because) {
+    throw new QuadmarkError('bad_option', `${because} does not go with --scheme robust, whose keys fit every payload`);
   }
-  return {};
+  if (options.scheme !== undefined) return { scheme: options.scheme };
+  return because ? { scheme: 'paper', because } : { scheme: DEFAULT_SCHEME };
 }
 
 function describe({ scheme, params }, payload) {
@@ -38,18 +47,23 @@ function describe({ scheme, params }, payload) {
 export async function keygenCommand(path, options, output) {
   try {
     if (path === '-' && output.json) throw new QuadmarkError('bad_option', 'the key and --json both want standard output');
-    const payload = options.scheme === 'robust' ? refusePaperOptions(options) : await payloadOf(options);
+    const { scheme: wanted, because } = schemeOf(options);
+    const payload = wanted === 'robust' ? {} : await payloadOf(options);
     const writer = new Writer(options.force, options.image === undefined ? [] : [options.image]);
     const target = writer.check(path, 'the key');
-    const request = { owner: options.owner, scheme: options.scheme, ...payload, ...checkSettings(options.set, ['L']) };
+    const request = { owner: options.owner, scheme: wanted, ...payload, ...checkSettings(options.set, ['L']) };
     if (options.firstDigit !== undefined) request.L = options.firstDigit;
     if (options.keyedCells) request.keyedCells = true;
     const key = await createKey(request);
     // Whoever reads the key can read and forge marks: for the owner of the file alone.
     writer.writeAll([{ path: target, bytes: Buffer.from(`${JSON.stringify(key, null, 2)}\n`), mode: 0o600 }]);
     const { scheme, owner, params } = key;
+    const warnings = because
+      ? [`${because} makes this a key of scheme paper, whose marks do not survive quantization; without it the key is of scheme robust and fits every payload`]
+      : [];
+    for (const warning of warnings) output.log(warning);
     output.result(
-      { output: path, scheme, owner, params, warnings: [] },
+      { output: path, scheme, owner, params, warnings },
       [`${path}: key for ${describe(key, payload)}`,
         'Keep it secret and keep a copy: the mark can be neither read nor proved without it.'],
       path === '-' ? process.stderr : process.stdout);

@@ -79,7 +79,7 @@ export async function run(argv) {
   define('keygen', 'make a key file', keygenCommand)
     .argument('<key.json>', 'where to write the key')
     .option('--owner <text>', 'who the mark is for; kept in the key file', '')
-    .option('--scheme <scheme>', 'watermarking scheme: paper or robust', DEFAULT_SCHEME)
+    .option('--scheme <scheme>', `watermarking scheme: robust or paper (default: ${DEFAULT_SCHEME}; paper with any option below)`)
     .option('--image <logo.png>', 'make the key for images of this one\'s size')
     .option('--size <WxH>', 'make the key for images of this size in pixels', parseSize)
     .option('--id-bits <bits>', 'make the key for IDs of this length; only 64', parseWhole)

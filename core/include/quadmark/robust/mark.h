@@ -54,7 +54,7 @@ struct MarkReading {
 struct ReadRequest {
   const SchemeKeys& keys;
   std::optional<Payload> expected{};
-  std::uint32_t keysTried = 1;             ///< multiplies every probability
+  std::uint32_t keysTried = 1;             ///< keys, or parts of a scene, tried: multiplies every probability
   std::function<bool(double done)> progress{};  ///< share of the hypotheses; false cancels
 };
 
