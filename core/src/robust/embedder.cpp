@@ -66,18 +66,18 @@ DistortionLimits limitsOf(const Preset& preset, const Surface& surface, double d
   return {preset.budget * kMeanTurn, preset.budget * std::max(kSurfaceRms, coarse) * diagonal};
 }
 
-// Exactly flat quadrilaterals are a beacon that needs no key. Cells that were not flat before get a gap of the size
-// that 14-bit quantization gives them anyway, which the reader hardly notices.
+// Exactly flat quadrilaterals are a beacon that needs no key. Cells get a gap of the size that 14-bit quantization gives
+// them anyway, which the reader hardly notices; those that were flatter before get back about half of what they had.
 void conceal(const std::vector<WrittenCell>& cells, const std::vector<Diamond>& diamonds, const Prf& prf,
              double amplitude, std::vector<double>& positions) {
   for (const WrittenCell& cell : cells) {
-    if (!(cell.naturalGap > 2 * amplitude)) continue;
+    const double most = std::min(amplitude, 0.5 * static_cast<double>(cell.naturalGap));
     const Diamond& q = diamonds[cell.diamond];
     Random random(prf(std::uint64_t{cell.meaning} << 32 | q.b));
     for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) {
       const Vec3 p = at(positions, v);
-      const double x = random.uniform(-amplitude, amplitude), y = random.uniform(-amplitude, amplitude);
-      put(positions, v, {p.x + x, p.y + y, p.z + random.uniform(-amplitude, amplitude)});
+      const double x = random.uniform(-most, most), y = random.uniform(-most, most);
+      put(positions, v, {p.x + x, p.y + y, p.z + random.uniform(-most, most)});
     }
   }
 }
