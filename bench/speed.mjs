@@ -48,40 +48,46 @@ const cases = [];
 const bunny = join(models, 'bunny.glb');
 if (existsSync(bunny)) cases.push({ name: 'bunny.glb', bytes: readFileSync(bunny) });
 else console.error(`bunny.glb is not in ${models}: generated models only`);
-for (const vertices of [35_000, 250_000, 2_000_000]) {
+for (const vertices of [35_000, 250_000, 1_000_000, 2_000_000]) {
   cases.push({ name: `sculpture, ${vertices.toLocaleString('en-US')}`, bytes: (await generate({ name: 'sculpture', vertices, format: 'glb' })).bytes });
 }
 
 const image = logo(24);
-const png = await encodeImage(image);
-const key = await createKey({ width: 24, height: 24 });
-writeFileSync(join(scratch, 'key.json'), JSON.stringify(key));
-writeFileSync(join(scratch, 'logo.png'), png);
+const schemes = {
+  paper: { key: await createKey({ width: 24, height: 24 }), mark: { image }, argument: join(scratch, 'logo.png') },
+  robust: { key: await createKey(), mark: { id: 'c0ffee' }, argument: 'c0ffee' },
+};
+const OPERATIONS = { embed: 'embed', extract: 'extract', search: 'extract, unmarked' };
+writeFileSync(join(scratch, 'logo.png'), await encodeImage(image));
 
 const rows = [];
 for (const { name, bytes } of cases) {
   const path = join(scratch, 'model.glb');
   writeFileSync(path, bytes);
-  const native = JSON.parse(execFileSync(join(root, 'build/native/bench/quadmark_speed'),
-    [path, join(scratch, 'key.json'), join(scratch, 'logo.png'), String(repeats)], { encoding: 'utf8' }));
-  const { vertices } = await inspect(bytes);
-  const marked = await embed(bytes, { key, image });
-  const read = await extract(marked.bytes, { key });
-  if (read.verdict !== 'match') throw new Error(`${name}: verdict ${read.verdict}`);
-  const wasm = {
-    embed: await wasmTimes(() => embed(bytes, { key, image })),
-    extract: await wasmTimes(() => extract(marked.bytes, { key })),
-  };
-  for (const operation of ['embed', 'extract']) {
-    const n = native[operation], w = wasm[operation];
-    const rate = (ms) => (vertices / ms / 1000).toFixed(2);
-    rows.push([name, vertices.toLocaleString('en-US'), operation, n.medianMs.toFixed(1), rate(n.medianMs), w.medianMs.toFixed(1),
-      rate(w.medianMs), (n.medianMs / w.medianMs).toFixed(2), n.peakBytesPerVertex.toFixed(0)]);
-    console.error(rows.at(-1).join('  '));
+  for (const [scheme, { key, mark, argument }] of Object.entries(schemes)) {
+    writeFileSync(join(scratch, 'key.json'), JSON.stringify(key));
+    const native = JSON.parse(execFileSync(join(root, 'build/native/bench/quadmark_speed'),
+      [path, join(scratch, 'key.json'), argument, String(repeats)], { encoding: 'utf8' }));
+    const { vertices } = await inspect(bytes);
+    const marked = await embed(bytes, { key, ...mark });
+    const read = await extract(marked.bytes, { key });
+    if (read.verdict !== 'match') throw new Error(`${name}: verdict ${read.verdict}`);
+    const wasm = {
+      embed: await wasmTimes(() => embed(bytes, { key, ...mark })),
+      extract: await wasmTimes(() => extract(marked.bytes, { key })),
+      search: await wasmTimes(() => extract(bytes, { key })),
+    };
+    for (const [operation, title] of Object.entries(OPERATIONS)) {
+      const n = native[operation], w = wasm[operation];
+      const rate = (ms) => (vertices / ms / 1000).toFixed(2);
+      rows.push([name, vertices.toLocaleString('en-US'), scheme, title, n.medianMs.toFixed(1), rate(n.medianMs), w.medianMs.toFixed(1),
+        rate(w.medianMs), (n.medianMs / w.medianMs).toFixed(2), n.peakBytesPerVertex.toFixed(0)]);
+      console.error(rows.at(-1).join('  '));
+    }
   }
 }
 
-const head = ['model', 'vertices', 'operation', 'native ms', 'native Mvertices/s', 'wasm ms', 'wasm Mvertices/s', 'wasm speed / native', 'native peak bytes / vertex'];
+const head = ['model', 'vertices', 'scheme', 'operation', 'native ms', 'native Mvertices/s', 'wasm ms', 'wasm Mvertices/s', 'wasm speed / native', 'native peak bytes / vertex'];
 const table = [head, head.map(() => '---'), ...rows].map((row) => `| ${row.join(' | ')} |`).join('\n');
 const machine = `quadmark ${await version()}, ${cpus()[0].model}, one core, Node ${process.versions.node}, medians of ${repeats}, ${new Date().toISOString().slice(0, 10)}`;
 const text = `${machine}\n\n${table}\n`;

@@ -35,8 +35,16 @@ inline double squaredToSegment(const Point& p, const Point& a, const Point& b) {
   return squared(ap - t * ab);
 }
 
+/// The square of how far a point lies outside an edge of a triangle, in the triangle's plane; 0 inside.
+/// @param beyond        the point's barycentric coordinate of the opposite corner, times the squared normal.
+/// @param areaTimesEdge  the squared normal times the edge's squared length.
+inline double squaredBeyond(double beyond, double areaTimesEdge) {
+  return beyond < 0 ? beyond * beyond / areaTimesEdge : 0;
+}
+
 /// Degenerate triangles (segments, points) are handled as what they are.
-inline double squaredToTriangle(const Point& p, const Point& a, const Point& b, const Point& c) {
+/// @param enough  a distance that is at least this need not be exact: some number that is not below it comes back.
+inline double squaredToTriangle(const Point& p, const Point& a, const Point& b, const Point& c, double enough = 1e300) {
   const Point ab = b - a, ac = c - a, ap = p - a;
   const Point normal = cross(ab, ac);
   const double area = squared(normal);
@@ -45,6 +53,12 @@ inline double squaredToTriangle(const Point& p, const Point& a, const Point& b, 
     if (v >= 0 && w >= 0 && v + w <= area) {
       const double height = dot(ap, normal);
       return height * height / area;
+    }
+    if (enough < 1e300) {
+      const double height = dot(ap, normal), least = height * height / area;
+      if (least + std::max({squaredBeyond(v, area * squared(ac)), squaredBeyond(w, area * squared(ab)),
+                            squaredBeyond(area - v - w, area * squared(c - b))}) >= enough)
+        return enough;
     }
   }
   return std::min({squaredToSegment(p, a, b), squaredToSegment(p, b, c), squaredToSegment(p, c, a)});

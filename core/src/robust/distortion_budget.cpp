@@ -35,7 +35,7 @@ double squaredToFan(const Point& p, const Surface& surface, std::span<const std:
     const auto face = surface.face(f);
     for (std::size_t c = 2; c < face.size(); ++c)
       best = std::min(best, detail::squaredToTriangle(p, pointAt(positions, face[0]), pointAt(positions, face[c - 1]),
-                                                      pointAt(positions, face[c])));
+                                                      pointAt(positions, face[c]), best));
   }
   return best;
 }
@@ -61,34 +61,39 @@ void dropDearest(const std::vector<Expense>& expenses, double limit, const Cost&
 
 }  // namespace
 
-Change::Change(const Surface& surface, const FacesAround& facesAround, const std::vector<double>& original,
-               const std::vector<double>& positions)
-    : turnOf_(surface.vertexCount(), 0.0f), squareOf_(surface.vertexCount(), 0.0f) {
-  const std::uint32_t count = surface.vertexCount();
+ChangeMeter::ChangeMeter(const Surface& surface, const FacesAround& facesAround)
+    : surface_(surface), facesAround_(facesAround), normals_(unitNormals(surface, surface.welded.positions)) {}
+
+void ChangeMeter::measure(const std::vector<double>& positions) {
+  const std::vector<double>& original = surface_.welded.positions;
+  const std::uint32_t count = surface_.vertexCount();
+  turns_ = squares_ = 0;
+  turnOf_.assign(count, 0.0f);
+  squareOf_.assign(count, 0.0f);
   std::vector<float> moved(count);
   for (std::uint32_t v = 0; v < count; ++v) {
     const Vec3 d = at(positions, v) - at(original, v);
     moved[v] = static_cast<float>(dot(d, d));
   }
-  const std::vector<Vec3> before = unitNormals(surface, original), after = unitNormals(surface, positions);
+  const std::vector<Vec3> after = unitNormals(surface_, positions);
   for (std::uint32_t v = 0; v < count; ++v) {
     if (moved[v] > 0) {
-      const auto faces = facesAround.of(v);
-      const double square = 0.5 * (squaredToFan(pointAt(original, v), surface, faces, positions) +
-                                   squaredToFan(pointAt(positions, v), surface, faces, original));
+      const auto faces = facesAround_.of(v);
+      const double square = 0.5 * (squaredToFan(pointAt(original, v), surface_, faces, positions) +
+                                   squaredToFan(pointAt(positions, v), surface_, faces, original));
       squareOf_[v] = static_cast<float>(square);
       squares_ += square;
     }
-    const double turn = length(after[v] - before[v]);
+    const double turn = length(after[v] - normals_[v]);
     if (!(turn > 0)) continue;
     turns_ += turn;
     // All corners of the faces around, not only neighbours: a polygon's normal depends on each of them.
     double total = 0;
-    for (const std::uint32_t f : facesAround.of(v))
-      for (const std::uint32_t w : surface.face(f)) total += static_cast<double>(moved[w]);
+    for (const std::uint32_t f : facesAround_.of(v))
+      for (const std::uint32_t w : surface_.face(f)) total += static_cast<double>(moved[w]);
     if (!(total > 0)) continue;
-    for (const std::uint32_t f : facesAround.of(v))
-      for (const std::uint32_t w : surface.face(f))
+    for (const std::uint32_t f : facesAround_.of(v))
+      for (const std::uint32_t w : surface_.face(f))
         if (moved[w] > 0) turnOf_[w] += static_cast<float>(turn * static_cast<double>(moved[w]) / total);
   }
 }

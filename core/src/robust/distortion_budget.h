@@ -15,14 +15,14 @@ struct DistortionLimits {
   double surfaceRms = 1e300;  ///< distance between the surfaces, file units
 };
 
-/// The two means for one set of positions, with each vertex's share in them.
-class Change {
+/// The two means for one set of positions after another, with each vertex's share in them.
+class ChangeMeter {
  public:
-  /// @param facesAround  of `surface`.
-  /// @param original     welded positions before embedding.
-  /// @param positions    after it. Cost: some 0.3 microseconds per vertex.
-  Change(const Surface& surface, const FacesAround& facesAround, const std::vector<double>& original,
-         const std::vector<double>& positions);
+  /// @param surface      before embedding; kept by reference, like the faces around its vertices.
+  ChangeMeter(const Surface& surface, const FacesAround& facesAround);
+
+  /// @param positions  welded, after embedding. Cost: some 0.3 microseconds per vertex.
+  void measure(const std::vector<double>& positions);
 
   /// Sums over all vertices; a limit times the number of vertices is to be compared with them.
   [[nodiscard]] double turns() const { return turns_; }
@@ -33,6 +33,9 @@ class Change {
   [[nodiscard]] double squareOf(std::uint32_t vertex) const { return squareOf_[vertex]; }
 
  private:
+  const Surface& surface_;
+  const FacesAround& facesAround_;
+  std::vector<Vec3> normals_;  // before
   double turns_ = 0, squares_ = 0;
   std::vector<float> turnOf_, squareOf_;
 };

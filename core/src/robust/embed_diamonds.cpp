@@ -143,7 +143,7 @@ DiamondEmbedding embedDiamonds(const Surface& surface, const FacesAround& facesA
             ++out.vetoed;
             continue;
           }
-          out.cells.push_back({c.diamond, constellation.meaning(edgeCell, spanCell), c.gap});
+          out.cells.push_back({q, constellation.meaning(edgeCell, spanCell), c.gap});
           ++copies[g];
           any = true;
           break;

@@ -22,7 +22,7 @@ struct DiamondLimits {
 };
 
 struct WrittenCell {
-  std::uint32_t diamond;  ///< index into the diamonds given
+  Diamond diamond;
   std::uint32_t meaning;  ///< Constellation::meaning of its fine cell
   float naturalGap;       ///< gap before, file units
 };

@@ -68,11 +68,10 @@ DistortionLimits limitsOf(const Preset& preset, const Surface& surface, double d
 
 // Exactly flat quadrilaterals are a beacon that needs no key. Cells get a gap of the size that 14-bit quantization gives
 // them anyway, which the reader hardly notices; those that were flatter before get back about half of what they had.
-void conceal(const std::vector<WrittenCell>& cells, const std::vector<Diamond>& diamonds, const Prf& prf,
-             double amplitude, std::vector<double>& positions) {
+void conceal(const std::vector<WrittenCell>& cells, const Prf& prf, double amplitude, std::vector<double>& positions) {
   for (const WrittenCell& cell : cells) {
     const double most = std::min(amplitude, 0.5 * static_cast<double>(cell.naturalGap));
-    const Diamond& q = diamonds[cell.diamond];
+    const Diamond& q = cell.diamond;
     Random random(prf(std::uint64_t{cell.meaning} << 32 | q.b));
     for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) {
       const Vec3 p = at(positions, v);
@@ -110,12 +109,11 @@ std::uint8_t chooseDelta(const std::vector<Diamond>& diamonds, const std::vector
 
 // Undoes the dearest cells, and marks the dearest carriers, until what is left should keep within the limits; all
 // carriers return to where they were, to be written anew. False where nothing had to go.
-bool giveUp(const Surface& surface, const FacesAround& facesAround, const std::vector<Diamond>& diamonds,
-            const Carriers& carriers, const DistortionLimits& limits, std::uint32_t symbolBits,
-            const std::vector<std::uint32_t>& written, std::vector<WrittenCell>& cells,
+bool giveUp(const Surface& surface, ChangeMeter& change, const Carriers& carriers, const DistortionLimits& limits,
+            std::uint32_t symbolBits, const std::vector<std::uint32_t>& written, std::vector<WrittenCell>& cells,
             std::vector<std::uint8_t>& droppedCarriers, std::vector<double>& positions) {
   const std::vector<double>& original = surface.welded.positions;
-  const Change change(surface, facesAround, original, positions);
+  change.measure(positions);
   const double turns = limits.turn * surface.vertexCount();
   const double squares = limits.surfaceRms * limits.surfaceRms * surface.vertexCount();
   if (change.turns() <= turns && change.squares() <= squares) return false;
@@ -124,7 +122,7 @@ bool giveUp(const Surface& surface, const FacesAround& facesAround, const std::v
     expenses.push_back({change.turnOf(carriers.vertex[i]), change.squareOf(carriers.vertex[i]), 2});
   for (const WrittenCell& cell : cells) {
     Expense e{0, 0, kCellWorth * symbolBits};
-    const Diamond& q = diamonds[cell.diamond];
+    const Diamond& q = cell.diamond;
     for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) e.turn += change.turnOf(v), e.square += change.squareOf(v);
     expenses.push_back(e);
   }
@@ -135,7 +133,7 @@ bool giveUp(const Surface& surface, const FacesAround& facesAround, const std::v
   }
   std::vector<WrittenCell> kept;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Diamond& q = diamonds[cells[i].diamond];
+    const Diamond& q = cells[i].diamond;
     if (dropped[written.size() + i] == 0)
       kept.push_back(cells[i]);
     else
@@ -182,14 +180,15 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   preset.diamond.maxMove = (maxError - 2 * preset.concealment) * diagonal;
   if (options.maxSlideRel > 0) preset.ring.maxSlide = preset.diamond.maxSlide = options.maxSlideRel * diagonal;
   if (cancelled("surface", 0)) return aborted;
-  const Surface surface = makeSurface(mesh);
+  Surface surface = makeSurface(mesh);
   const Carriers carriers = selectCarriers(surface, Prf(keys.select));
+  forgetNeighbours(surface);
   std::vector<double> positions = surface.welded.positions;
   RobustEmbedding out;
 
   // 1. Layer B, off the carriers but across their rings: A is written on the result, so neither sees the other.
   if (cancelled("diamonds", 0.3)) return aborted;
-  const std::vector<Diamond> diamonds = collectDiamonds(surface);
+  std::vector<Diamond> diamonds = collectDiamonds(surface);
   const Sharing sharing = payload.hasBody() ? Sharing::split : Sharing::headOnly;
   out.deltaClass = chooseDelta(diamonds, positions, payload.head.size() + payload.body.size(), payload.hasBody());
   const Constellation constellation(out.deltaClass, keys, sharing, payload.headCode(), payload.bodyCode());
@@ -198,12 +197,14 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   const FacesAround facesAround(surface);
   DiamondEmbedding cells =
       embedDiamonds(surface, facesAround, diamonds, constellation, payload, preset.diamond, occupied, positions);
-  conceal(cells.cells, diamonds, Prf(keys.assignment), preset.concealment * diagonal, positions);
+  diamonds = {};
+  conceal(cells.cells, Prf(keys.assignment), preset.concealment * diagonal, positions);
 
   // 2. Layer A. Where both together are more than the preset allows, the dearest parts go, and A is written again.
   if (cancelled("rings", 0.8)) return aborted;
   const RingCode code(keys);
   const DistortionLimits limits = limitsOf(preset, surface, diagonal);
+  ChangeMeter change(surface, facesAround);
   std::vector<std::uint8_t> droppedCarriers(carriers.count(), 0);
   std::vector<std::uint32_t> written;
   for (int round = 0;; ++round) {
@@ -212,7 +213,7 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
       preset.ring.step = std::min(preset.mostStep, chooseRingStep(carriers, positions, tensor, diagonal));
     written = embedRings(carriers, code, payload, tensor, preset.ring, droppedCarriers, positions);
     if (round == kBudgetRounds || preset.budget > 1) break;
-    if (!giveUp(surface, facesAround, diamonds, carriers, limits, constellation.shape().symbol, written, cells.cells,
+    if (!giveUp(surface, change, carriers, limits, constellation.shape().symbol, written, cells.cells,
                 droppedCarriers, positions))
       break;
   }

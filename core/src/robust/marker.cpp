@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "quadmark/robust/reader.h"
 
@@ -47,11 +48,11 @@ Result<MarkedMesh> markMesh(const Mesh& mesh, const Payload& payload, const Sche
     if (!embedding) return embedding.error();
     marked.embedding = std::move(*embedding);
     Mesh after = mesh;
-    after.positions = marked.embedding.positions;
+    after.positions = std::move(marked.embedding.positions);
     roundToPrecision(after);  // integer grids are coarser than what the layers round to
-    marked.embedding.positions = after.positions;
     if (options.progress && !options.progress("verify", 0.9)) return Error{ErrorCode::aborted, "cancelled by the caller"};
     marked.unattacked = readBack(after, marked.bits, keys);
+    marked.embedding.positions = std::move(after.positions);
     if (marked.unattacked.read) break;
   }
   if (!marked.unattacked.read) return tooSmall(marked, false);

@@ -94,6 +94,7 @@ struct MeshReader::State {
         extent(largestExtent(surface.welded.positions)),
         carriers(selectCarriers(surface, Prf(k.select))),
         ringCode(k) {
+    forgetNeighbours(surface);
     coverage.vertices = surface.vertexCount();
     coverage.carriers = carriers.count();
     const RingVotes& votes = rings(0);

@@ -88,6 +88,10 @@ Surface makeSurface(const Mesh& mesh) {
   return out;
 }
 
+void forgetNeighbours(Surface& surface) {
+  surface.welded.neighbours = {};
+}
+
 FacesAround::FacesAround(const Surface& surface)
     : offsets_(surface.vertexCount() + 1, 0), faces_(surface.corners.size()) {
   for (const std::uint32_t v : surface.corners) ++offsets_[v + 1];

@@ -38,6 +38,9 @@ struct Surface {
 /// @param mesh  must validate(). Cost: linear.
 [[nodiscard]] Surface makeSurface(const Mesh& mesh);
 
+/// Frees what only labels are made from (`welded.neighbours`).
+void forgetNeighbours(Surface& surface);
+
 /// The faces around each welded vertex.
 class FacesAround {
  public:
