@@ -2,13 +2,15 @@
 // quadmark_chance: how often chance looks like a mark. Wrong keys on unmarked models and on other keys' marks; the table
 // "claimed and observed" of docs/robust.md.
 //
-//   quadmark_chance [--trials N] [--searches N]     keys per model, and of these how many search a mesh whole
+//   quadmark_chance [--trials N] [--searches N] [--minutes M]     keys per model; of these, how many search a mesh whole;
+//                                                                 after so much processor time no more do
 //
 // Prints a Markdown table of the share of trials with p at most the claimed one, for each layer's own test, for the bounds
 // that verdicts are made of, and for whole searches. 2000 keys on each of the five models take an hour.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -57,9 +59,11 @@ constexpr std::uint32_t kLeastVotes = 30;
 }  // namespace
 
 int main(int argc, char** argv) {
-  int trials = 200, searches = 20;
-  for (int i = 1; i + 1 < argc; i += 2)
-    (std::string(argv[i]) == "--trials" ? trials : searches) = std::max(1, std::atoi(argv[i + 1]));
+  int trials = 200, searches = 20, minutes = 10000;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const std::string name = argv[i];
+    (name == "--trials" ? trials : name == "--searches" ? searches : minutes) = std::max(1, std::atoi(argv[i + 1]));
+  }
   const Mesh plain = lab::sculpture(3000), marked = markedByAnother(plain);
   const std::vector<Mesh> innocents = {
       plain, marked, lab::quantize(lab::simplifyMeshopt(marked, 0.8), 14, lab::Grid::common), lab::machinedPart(2500),
@@ -73,18 +77,19 @@ int main(int argc, char** argv) {
   ringView.ringSigma = 1e-4;
   diamondView.layers = Layers::diamonds;
   diamondView.diamondSigma = 1.8e-5;
-  for (const Mesh& mesh : innocents)
-    for (int trial = 0; trial < trials; ++trial) {
-      const SchemeKeys keys = keysOf(1000 + static_cast<std::uint64_t>(trial));
-      const std::uint64_t id = Random::mix(static_cast<std::uint64_t>(trial));
-      const CodedPayload expected = encode(*bitsOf(Payload{id}, BodyRate::half, 1, keys), keys);
+  for (int trial = 0; trial < trials; ++trial) {
+    const SchemeKeys keys = keysOf(1000 + static_cast<std::uint64_t>(trial));
+    const std::uint64_t id = Random::mix(static_cast<std::uint64_t>(trial));
+    const CodedPayload expected = encode(*bitsOf(Payload{id}, BodyRate::half, 1, keys), keys);
+    const bool search = trial < searches && static_cast<double>(std::clock()) / CLOCKS_PER_SEC < 60.0 * minutes;
+    for (const Mesh& mesh : innocents) {
       MeshReader reader(mesh, keys.geometry, headCode());
       const Agreement labels = reader.ringAgreement(expected), bits = reader.diamondAgreement(expected, diamondView);
       if (labels.votes >= kLeastVotes) ring.add(exactExp(logChance(labels)));
       if (bits.votes >= kLeastVotes) diamonds.add(exactExp(logChance(bits)));
       ringBound.add(exactExp(logChance(reader.headRatios(ringView), expected.head)));
       diamondBound.add(exactExp(logChance(reader.headRatios(diamondView), expected.head)));
-      if (trial >= searches) continue;
+      if (!search) continue;
       MeshSource source(reader);
       const auto reading = readMark(source, {.keys = keys, .expected = Payload{id}});
       frames += reading->framed ? 1 : 0;
@@ -93,6 +98,7 @@ int main(int argc, char** argv) {
       verify.add(reading->expectedProbability);
       read.add(reading->readProbability);
     }
+  }
 
   std::printf("| claimed p | ");
   for (const double claim : kClaims) std::printf("%g | ", claim);

@@ -17,8 +17,8 @@ function blocksOf(file) {
 
 async function workspace(t) {
   const folder = temporaryFolder(t);
-  writeFileSync(join(folder, 'model.glb'), await sculpture('glb'));
-  writeFileSync(join(folder, 'model.ply'), await sculpture('ply'));
+  writeFileSync(join(folder, 'model.glb'), await sculpture('glb', 20000));
+  writeFileSync(join(folder, 'model.ply'), await sculpture('ply', 20000));
   writeFileSync(join(folder, 'logo.png'), logoPng(logo()));
   writeFileSync(join(folder, 'package.json'), '{ "type": "module" }');
   mkdirSync(join(folder, 'node_modules'));

@@ -12,6 +12,7 @@
 #include "robust/carriers.h"
 #include "robust/constellation.h"
 #include "robust/diamonds.h"
+#include "robust/distortion_budget.h"
 #include "robust/far_names.h"
 #include "robust/labels.h"
 #include "robust/lattice.h"
@@ -107,7 +108,7 @@ TEST(RobustSurvival, PrefersWhatSimplifiersKeep) {
   const Surface surface = makeSurface(mesh);
   const Survival survival(surface, surface.welded.positions);
   lab::VertexOrigin origin;
-  lab::simplifyMeshopt(mesh, 0.6, &origin);
+  static_cast<void>(lab::simplifyMeshopt(mesh, 0.6, &origin));
   std::set<std::uint32_t> kept;
   for (const std::uint32_t v : origin) kept.insert(surface.welded.weldedOf[v]);
   double survivors[2] = {0, 0}, all[2] = {0, 0};
@@ -117,6 +118,44 @@ TEST(RobustSurvival, PrefersWhatSimplifiersKeep) {
     survivors[eager] += kept.count(q.a) + kept.count(q.b) + kept.count(q.c) + kept.count(q.d) == 4;
   }
   EXPECT_GT(survivors[1] / all[1], 1.5 * survivors[0] / all[0]);
+}
+
+TEST(RobustBudget, ChargesAMovedVertexWithWhatItDid) {
+  const Surface surface = makeSurface(lab::flatGrid(9, 9));
+  const FacesAround facesAround(surface);
+  ChangeMeter change(surface, facesAround);
+  std::vector<double> positions = surface.welded.positions;
+  change.measure(positions);
+  EXPECT_EQ(change.turns(), 0);
+  EXPECT_EQ(change.squares(), 0);
+
+  // One vertex inside, slid in the plane: nothing to see. Then lifted by a tenth of an edge.
+  const std::uint32_t v = 40;
+  ASSERT_EQ(surface.ring(v).size(), 6u);
+  const double edge = length(at(positions, surface.ring(v)[0]) - at(positions, v));
+  positions[3 * v] += 0.1 * edge;
+  change.measure(positions);
+  EXPECT_NEAR(change.turns(), 0, 1e-9);
+  EXPECT_NEAR(change.squares(), 0, 1e-20);
+  const double height = 0.1 * edge;
+  positions = surface.welded.positions;
+  positions[3 * v + 2] += height;
+  change.measure(positions);
+  EXPECT_NEAR(change.turnOf(v), change.turns(), 1e-6 * change.turns());
+  EXPECT_GT(change.turns(), 6 * 0.02) << "all six neighbours turn";
+  // From the lifted vertex to the plane it is the height, from its old place to the lifted faces a little less.
+  EXPECT_NEAR(change.squareOf(v), change.squares(), 1e-6 * change.squares());
+  EXPECT_LT(change.squares(), height * height);
+  EXPECT_GT(change.squares(), 0.9 * height * height);
+}
+
+TEST(RobustBudget, GivesUpWhatCostsMostPerVote) {
+  const std::vector<Expense> expenses = {{4, 1, 2}, {5, 1, 4}, {1, 1, 2}, {4, 9, 2}};
+  EXPECT_EQ(expensesToDrop(expenses, 14, 12), (std::vector<std::uint8_t>{0, 0, 0, 0}));
+  EXPECT_EQ(expensesToDrop(expenses, 13, 12), (std::vector<std::uint8_t>{1, 0, 0, 0})) << "ties: the first";
+  EXPECT_EQ(expensesToDrop(expenses, 6, 12), (std::vector<std::uint8_t>{1, 0, 0, 1}));
+  EXPECT_EQ(expensesToDrop(expenses, 14, 3), (std::vector<std::uint8_t>{0, 0, 0, 1}));
+  EXPECT_EQ(expensesToDrop(expenses, 0, 0), (std::vector<std::uint8_t>{1, 1, 1, 1}));
 }
 
 TEST(RobustCarriers, AreTheSameIndependentSetInEveryOrder) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fixtures.h"
+#include "quadmark/metrics.h"
 #include "quadmark/random.h"
 #include "quadmark/robust/embedder.h"
 #include "quadmark/robust/reader.h"
@@ -183,6 +184,19 @@ TEST(RobustMesh, CapsDisplacement) {
   EXPECT_GT(*std::max_element(free.displacement.begin(), free.displacement.end()), most);
   EXPECT_LT(capped.cells + capped.carriers, free.cells + free.carriers);
   EXPECT_GT(capped.carriers, 0u);
+}
+
+// Mean turn of vertex normals, as the embedder limits it and as reports measure it.
+TEST(RobustMesh, KeepsWithinTheBudgetOfItsStrength) {
+  for (const Mesh& mesh : {lab::sculpture(7000), lab::bumpyGrid(80, 80, 1), lab::quadSphere(5), lab::machinedPart(5000)}) {
+    const double allowed[] = {0.25, 0.5};
+    for (const Strength strength : {Strength::invisible, Strength::standard}) {
+      const Mesh after = marked(mesh, payloadOf(1), {.strength = strength});
+      const Distortion d = distortion(mesh, after);
+      EXPECT_LE(d.meanNormalDeg, allowed[static_cast<int>(strength)]) << mesh.vertexCount();
+      EXPECT_GT(d.meanNormalDeg, 0) << mesh.vertexCount();
+    }
+  }
 }
 
 TEST(RobustMesh, RefusesWhatCannotBeMarked) {
