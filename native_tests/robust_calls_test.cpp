@@ -63,6 +63,12 @@ TEST(RobustKeyFile, HasNoParameters) {
   EXPECT_EQ(formatKey(*back), json);
 }
 
+TEST(RobustCalls, SayHowFarVerticesSlide) {
+  auto response = embed(model(), {}, idRequest(1));
+  ASSERT_TRUE(response);
+  EXPECT_TRUE(has(response->reportJson, "\"slideRel\":0.00"));
+}
+
 TEST(RobustCalls, BringAnIdBackBlindly) {
   ExtractRequest request{.key = robustKey()};
   const ExtractResponse read = extracted(marked(), request);

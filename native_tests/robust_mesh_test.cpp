@@ -184,6 +184,10 @@ TEST(RobustMesh, CapsDisplacement) {
   EXPECT_GT(*std::max_element(free.displacement.begin(), free.displacement.end()), most);
   EXPECT_LT(capped.cells + capped.carriers, free.cells + free.carriers);
   EXPECT_GT(capped.carriers, 0u);
+  const RobustEmbedding still = embedRobust(mesh, payloadOf(1), keysOf(1), {.maxSlideRel = 5e-4}).value();
+  EXPECT_LE(still.largestSlide, 1.25 * 5e-4 * diagonal) << "each layer has its own idea of the surface's direction";
+  EXPECT_GT(free.largestSlide, 2 * still.largestSlide);
+  EXPECT_GT(still.carriers, 0u);
 }
 
 // Mean turn of vertex normals, as the embedder limits it and as reports measure it.

@@ -120,7 +120,8 @@ Result<EmbedResponse> embedRobustFile(std::span<const std::uint8_t> file, const 
     tests = robust::selfTest(after, marked->bits, *keys);
   }
   if (!tell(request.progress, "report", 0.97)) return cancelled();
-  const Distortion measured = distortion(mesh, marked->embedding.positions, weld(mesh), boundingDiagonal(mesh));
+  const double diagonal = boundingDiagonal(mesh);
+  const Distortion measured = distortion(mesh, marked->embedding.positions, weld(mesh), diagonal);
 
   EmbedResponse response;
   auto patched = (*model)->patch(file, resources, marked->embedding.positions);
@@ -129,7 +130,8 @@ Result<EmbedResponse> embedRobustFile(std::span<const std::uint8_t> file, const 
   std::vector<std::string> warnings = warningsFor(**model, *marked);
   warnings.insert(warnings.end(), response.file.warnings.begin(), response.file.warnings.end());
   response.reportJson = formatReport(RobustEmbedReport{marked->bits, marked->coded, marked->embedding,
-                                                       request.robust.strength, measured, marked->unattacked, tests,
+                                                       request.robust.strength, measured,
+                                                       marked->embedding.largestSlide / diagonal, marked->unattacked, tests,
                                                        response.file.bytesChanged, warnings});
   tell(request.progress, "report", 1);
   return response;

@@ -81,6 +81,7 @@ std::string formatReport(const RobustEmbedReport& r) {
     json.endObject();
   }
   writeDistortion(json, r.distortion);
+  json.member("slideRel", r.slideRel);
   json.member("bytesChanged", r.bytesChanged);
   json.member("warnings", r.warnings);
   json.endObject();

@@ -28,6 +28,7 @@ struct RobustEmbedReport {
   const robust::RobustEmbedding& embedding;
   robust::Strength strength;
   const Distortion& distortion;
+  double slideRel;  ///< largest displacement along the surface, of the diagonal
   const robust::SelfTest& unattacked;
   const std::vector<robust::SelfTest>& selfTests;  ///< empty unless asked for
   std::uint64_t bytesChanged;

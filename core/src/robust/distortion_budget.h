@@ -24,6 +24,8 @@ class ChangeMeter {
   /// @param positions  welded, after embedding. Cost: some 0.3 microseconds per vertex.
   void measure(const std::vector<double>& positions);
 
+  /// Unit normal of a vertex before embedding; zero where its faces have no area.
+  [[nodiscard]] const Vec3& normal(std::uint32_t vertex) const { return normals_[vertex]; }
   /// Sums over all vertices; a limit times the number of vertices is to be compared with them.
   [[nodiscard]] double turns() const { return turns_; }
   [[nodiscard]] double squares() const { return squares_; }

@@ -229,7 +229,9 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
     const bool single = mesh.precision == Precision::float32;
     const double exact[3] = {to.x, to.y, to.z};
     for (int k = 0; k < 3; ++k) out.positions[3 * v + k] = single ? nearestFloat32(exact[k]) : exact[k];
-    out.displacement[v] = static_cast<float>(length(at(out.positions, v) - from));
+    const Vec3 move = at(out.positions, v) - from, &normal = change.normal(w);
+    out.displacement[v] = static_cast<float>(length(move));
+    out.largestSlide = std::max(out.largestSlide, length(move - dot(move, normal) * normal));
   }
 
   // 4. Counts.

@@ -28,6 +28,7 @@ struct EmbedOptions {
 struct RobustEmbedding {
   std::vector<double> positions;      ///< 3 per mesh vertex, representable in mesh.precision; twins stay bit-equal
   std::vector<float> displacement;    ///< per mesh vertex, file units
+  double largestSlide = 0;            ///< of any vertex along the surface, file units: by so much textures may swim
   std::uint32_t selected = 0;         ///< carriers of layer A that the key selects
   std::uint32_t carriers = 0;         ///< of these, written (the others were vetoed)
   std::uint32_t labels = 0;           ///< distinct labels among the written
