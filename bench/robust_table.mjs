@@ -102,7 +102,7 @@ if (reads.some(isImage)) {
 
 const ofTool = (r) => isTool(r.row) && r.payload === 'id';
 if (reads.some(ofTool)) {
-  parts.push(`### Tools of web builds, 64-bit IDs: ${keysOf(ofTool)}\n`);
+  parts.push('### Tools of web builds, 64-bit IDs\n');
   for (const strength of ['standard', 'strong']) {
     const list = reads.filter((r) => ofTool(r) && r.strength === strength);
     if (list.length === 0) continue;
@@ -114,7 +114,7 @@ if (reads.some(ofTool)) {
         ...models.map((model) => cell(list.filter((r) => r.row === row && r.model === model)))];
     });
     const counted = list.filter((r) => r.outcome !== 'failed'), exact = counted.filter((r) => r.outcome === 'exact').length;
-    parts.push(`**\`${strength}\`**: ${exact} of ${counted.length} exact (${(100 * exact / counted.length).toFixed(1)} %).\n`,
+    parts.push(`**\`${strength}\`**, ${keysOf((r) => ofTool(r) && r.strength === strength)}: ${exact} of ${counted.length} exact (${(100 * exact / counted.length).toFixed(1)} %).\n`,
       table(['tool', 'exact', ...models], rows) + '\n');
   }
 }
