@@ -13,8 +13,12 @@ void AllowedSpans::add(std::uint64_t begin, std::uint64_t stride, std::uint64_t 
 }
 
 void AllowedSpans::finish() {
-  std::sort(runs_.begin(), runs_.end(),
-            [](const Run& a, const Run& b) { return a.begin != b.begin ? a.begin < b.begin : a.end < b.end; });
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> byPlace;
+  for (const Run& run : runs_) byPlace.emplace_back(run.begin, static_cast<std::uint32_t>(byPlace.size()));
+  std::sort(byPlace.begin(), byPlace.end());
+  std::vector<Run> sorted;
+  for (const auto& entry : byPlace) sorted.push_back(runs_[entry.second]);
+  runs_ = std::move(sorted);
   largestEnd_.clear();
   std::uint64_t largest = 0;
   for (const Run& run : runs_) {

@@ -83,13 +83,13 @@ void JsonEdits::spell(const ContainerEdit& edit, std::vector<Replacement>& repla
 Result<JsonEdits::Applied> JsonEdits::apply() const {
   std::vector<Replacement> all = replacements_;
   for (const auto& entry : containers_) spell(entry.second, all);
-  // An insertion comes behind a replacement that ends where it begins.
-  std::stable_sort(all.begin(), all.end(), [](const Replacement& a, const Replacement& b) {
-    return a.begin != b.begin ? a.begin < b.begin : a.end < b.end;
-  });
+  // An insertion comes behind a replacement that ends where it begins; several at one place keep their order.
+  std::multimap<std::pair<std::size_t, std::size_t>, const Replacement*> byPlace;
+  for (const Replacement& edit : all) byPlace.emplace(std::pair(edit.begin, edit.end), &edit);
   Applied applied;
   std::size_t copied = 0;
-  for (const Replacement& edit : all) {
+  for (const auto& entry : byPlace) {
+    const Replacement& edit = *entry.second;
     if (edit.begin < copied || edit.end > text_.size()) {
       return Error{ErrorCode::internal, "self-check: text edits overlap"};
     }
