@@ -152,8 +152,9 @@ void expectDecompressed(const MatrixFile& before, const FileBytes& file, const R
       EXPECT_EQ(view.text(), oldViews[i]);
       return;
     }
-    const FileBytes& buffer = buffers[*view.find("buffer").asUnsigned()];
-    const std::size_t begin = *view.find("byteOffset").asUnsigned(), length = *view.find("byteLength").asUnsigned();
+    const auto field = [&](const char* name) { return static_cast<std::size_t>(*view.find(name).asUnsigned()); };
+    const FileBytes& buffer = buffers[field("buffer")];
+    const std::size_t begin = field("byteOffset"), length = field("byteLength");
     ASSERT_LE(begin + length, buffer.size());
     EXPECT_TRUE(std::equal(meant.views[i].begin(), meant.views[i].end(), buffer.begin() + static_cast<std::ptrdiff_t>(begin),
                            buffer.begin() + static_cast<std::ptrdiff_t>(begin + length)));
