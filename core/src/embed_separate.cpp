@@ -19,6 +19,10 @@ constexpr double kUnwantedUnits = 5;  // somewhat more than the decoder's kExact
 // brings about as many new accidental sets as it breaks, and the rounds do not converge.
 constexpr double kTiltUnits = 600;
 constexpr int kRounds = 16;
+// Breaking them is left out where each piece has this many copies and the unwanted sets are this few beside the cells: some
+// false votes among so many decide nothing, and most large scans need no tilting at all.
+constexpr std::uint32_t kPlentyOfCopies = 256;
+constexpr std::size_t kFewBesideCells = 4;
 
 double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -113,6 +117,10 @@ void Embedder::updateFlatSets(const std::vector<Quad>& found, const std::vector<
   std::inplace_merge(flatSets_.begin(), flatSets_.begin() + known, flatSets_.end());
 }
 
+bool Embedder::areHarmless(std::size_t unwanted) const {
+  return *std::min_element(copies_.begin(), copies_.end()) >= kPlentyOfCopies && unwanted <= cells_.size() / kFewBesideCells;
+}
+
 void Embedder::separate() {
   std::vector<std::uint32_t> seeds;
   std::vector<std::uint8_t> movedCell(cells_.size()), isChanged;
@@ -124,7 +132,7 @@ void Embedder::separate() {
     updateFlatSets(unwanted, isChanged);
     flatSetsKnown_ = true;
     // The last look is only to know what remains.
-    if (unwanted.empty() || round == kRounds) return;
+    if (unwanted.empty() || round == kRounds || areHarmless(unwanted.size())) return;
     std::fill(movedCell.begin(), movedCell.end(), std::uint8_t{0});
     isChanged.assign(welded_.vertexCount(), 0);
     std::vector<std::uint32_t> changed;

@@ -83,6 +83,7 @@ class Embedder {
   // embed_separate.cpp
   using VertexSet = std::array<std::uint32_t, 4>;
   void separate();
+  [[nodiscard]] bool areHarmless(std::size_t unwanted) const;
   void updateFlatSets(const std::vector<Quad>& found, const std::vector<std::uint8_t>& isChanged);
   void breakSet(const Quad& set, std::uint64_t salt, std::vector<std::uint8_t>& movedCell,
                 std::vector<std::uint32_t>& changed);
