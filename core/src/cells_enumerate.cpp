@@ -13,28 +13,18 @@ namespace {
 // A set is seen from several seeds. Chains by lowest vertex find the repeats without sorting or hashing all sets.
 class UniqueSets {
  public:
-  /// @param vertices  of the mesh.
-  /// @param seeds     how many neighbourhoods will be looked at: a few share fewer chains.
-  UniqueSets(std::size_t vertices, std::size_t seeds) {
-    constexpr std::size_t kChainsPerSeed = 4;
-    std::size_t chains = 64;
-    while (chains < kChainsPerSeed * seeds) chains *= 2;
-    if (chains >= vertices)
-      head_.assign(vertices, kNone);
-    else
-      head_.assign(chains, kNone), mask_ = static_cast<std::uint32_t>(chains - 1);
-  }
+  explicit UniqueSets(std::uint32_t vertices) : head_(vertices, kNone) {}
 
   // Expects ids sorted ascending; true the first time.
   bool insert(const std::uint32_t ids[4]) {
-    std::uint32_t& head = head_[ids[0] & mask_];
+    std::uint32_t& head = head_[ids[0]];
     for (std::uint32_t at = head; at != kNone;) {
       const Entry& e = entry(at);
-      if (e.id[0] == ids[0] && e.id[1] == ids[1] && e.id[2] == ids[2] && e.id[3] == ids[3]) return false;
+      if (e.id[0] == ids[1] && e.id[1] == ids[2] && e.id[2] == ids[3]) return false;
       at = e.next;
     }
     if (count_ % kBlock == 0) blocks_.push_back(std::make_unique<Entry[]>(kBlock));
-    entry(count_) = {{ids[0], ids[1], ids[2], ids[3]}, head};
+    entry(count_) = {{ids[1], ids[2], ids[3]}, head};
     head = count_++;
     return true;
   }
@@ -42,13 +32,13 @@ class UniqueSets {
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu, kBlock = 1u << 12;
   struct Entry {
-    std::uint32_t id[4];
+    std::uint32_t id[3];
     std::uint32_t next;
   };
   [[nodiscard]] Entry& entry(std::uint32_t index) { return blocks_[index / kBlock][index % kBlock]; }
 
   std::vector<std::uint32_t> head_;
-  std::uint32_t mask_ = 0xffffffffu, count_ = 0;
+  std::uint32_t count_ = 0;
   std::vector<std::unique_ptr<Entry[]>> blocks_;  ///< a growing vector would copy them all, and hold them twice
 };
 
@@ -123,7 +113,7 @@ void forEachCoplanarSet(const WeldedMesh& welded, const std::vector<double>& pos
                         const std::function<void(const Quad&)>& visit, const std::vector<std::uint32_t>* seeds,
                         const std::vector<std::uint32_t>* ownerOf) {
   const std::size_t count = seeds != nullptr ? seeds->size() : welded.vertexCount();
-  UniqueSets unique(welded.vertexCount(), count);
+  UniqueSets unique(welded.vertexCount());
   std::vector<std::uint32_t> members;
   RingSets ring;
   for (std::size_t i = 0; i < count; ++i) {

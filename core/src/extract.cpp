@@ -17,7 +17,7 @@ constexpr double kPassFactor = 8;          // how fast the tolerance rises from 
 constexpr double kTrustedPurity = 0.5;     // vertices of such cells are "used" for later passes
 constexpr double kMaxRepeats = 4;          // identical readings (index, label, piece) count at most this often
 
-// A reading that may vote, or an erasure. Kept small: there is one for every three or four vertices.
+// A reading that may vote. Kept small: there is one for every three or four vertices, more of them in later passes.
 struct Candidate {
   std::uint32_t vertices[4];  ///< a, b, c, d
   Reading reading;
@@ -101,7 +101,11 @@ class Extractor {
       if (!pad_.carries(reading.prefix1, reading.prefix2)) return;
       const int kind = PurityTable::kind(gapUnits, reading);
       table.add(kind, reading, quad.ratioAC, quad.ratioBD);
-      candidates.add({{quad.a, quad.b, quad.c, quad.d}, reading, static_cast<float>(sigma), kind});
+      if (reading.state == ReadingState::ok) {
+        candidates.add({{quad.a, quad.b, quad.c, quad.d}, reading, static_cast<float>(sigma), kind});
+      } else {
+        ++out_.erasedCells;
+      }
     });
     table.estimate();
     if (previous == 0) excess_ = table.excess();
@@ -123,9 +127,7 @@ class Extractor {
   // A vertex belongs to one cell. Where sets compete the purer kind wins, then the longer diagonals (the paper's rule).
   void accept(const CandidateList& candidates, const PurityTable& table) {
     std::vector<std::uint8_t> claims(welded_.vertexCount(), 0);
-    const auto votes = [&](const Candidate& c) {
-      return c.reading.state == ReadingState::ok && table.purity(c.kind) >= kLeastPurity;
-    };
+    const auto votes = [&](const Candidate& c) { return table.purity(c.kind) >= kLeastPurity; };
     std::size_t voters = 0;
     candidates.forEach([&](const Candidate& c) {
       if (!votes(c)) return;
@@ -135,8 +137,8 @@ class Extractor {
     accepted_.reserve(accepted_.size() + voters);
     std::vector<Rival> contested;
     candidates.forEach([&](const Candidate& c) {
+      if (!votes(c)) return;
       const auto purity = static_cast<float>(table.purity(c.kind));
-      if (!votes(c)) return erasure(c, purity);
       bool alone = true;
       for (std::uint32_t v : c.vertices) alone = alone && claims[v] == 1;
       if (alone)
@@ -193,18 +195,10 @@ class Extractor {
       if (used_.empty()) used_.assign(welded_.vertexCount(), 0);
       for (std::uint32_t v : c.vertices) used_[v] = 1;
     }
-    keep(c, purity, static_cast<float>(weight));
-  }
-
-  void erasure(const Candidate& c, float purity) {
-    if (c.reading.state != ReadingState::ok) ++out_.erasedCells;
-    keep(c, purity, 0);
-  }
-
-  void keep(const Candidate& c, float purity, float weight) {
-    if (!options_.keepReadings) return;
-    out_.readings.push_back(
-        {{c.vertices[0], c.vertices[1], c.vertices[2], c.vertices[3]}, c.reading, purity, weight, false});
+    if (options_.keepReadings) {
+      out_.readings.push_back({{c.vertices[0], c.vertices[1], c.vertices[2], c.vertices[3]}, c.reading, purity,
+                               static_cast<float>(weight), false});
+    }
   }
 
   // Which readings voted for what was read in the end.

@@ -22,7 +22,7 @@ struct CellReading {
   std::uint32_t vertices[4];  ///< welded vertices a, b, c, d
   Reading reading;
   float purity = 0;           ///< estimated share of true cells among readings of its kind, 0..1
-  float weight = 0;           ///< weight of its votes, 0 for erasures
+  float weight = 0;           ///< weight of its votes
   bool agrees = false;        ///< it voted, and for the bits that were read in the end
 };
 
@@ -34,7 +34,7 @@ struct Extraction {
   std::vector<std::uint8_t> bits;      ///< payload bits, one per byte; 0 where erased
   std::vector<std::uint8_t> erased;    ///< 1 = unread
   std::vector<float> confidence;       ///< 0..1 per payload bit: |P(1) - P(0)|
-  std::vector<CellReading> readings;   ///< all considered cells, votes and erasures; empty unless asked for
+  std::vector<CellReading> readings;   ///< what voted; empty unless asked for
   std::uint32_t cells = 0;             ///< readings that voted
   std::uint32_t exactCells = 0;        ///< of these, found in pass 1
   std::uint32_t erasedCells = 0;       ///< readings rejected as erasures (D14)
