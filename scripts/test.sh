@@ -105,8 +105,7 @@ echo
 echo "Summary"
 printf '  %s\n' "${summary[@]}"
 [ $quick = no ] || echo "  (--quick: no sanitizers, no fuzzers)"
-if grep -qsE 'not tested|is not in .*QUADMARK_MODELS' $logs/*.log; then
-  echo "  Note: $(grep -hsE 'real models? .* was not tested' $logs/*.log | sort -u | wc -l) parts with real models were not tested: set QUADMARK_MODELS to their folder"
-fi
+untested=$(grep -hsE 'real models? .* was not tested|is not in .*QUADMARK_MODELS' $logs/*.log | sort -u | wc -l)
+[ "$untested" = 0 ] || echo "  Note: $untested parts with real models were not tested: set QUADMARK_MODELS to their folder"
 if [ $failed = 0 ]; then echo "All tests passed in $((SECONDS / 60)) min $((SECONDS % 60)) s."; else echo "There were failures."; fi
 exit $failed
