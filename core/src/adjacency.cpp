@@ -235,13 +235,7 @@ FaceRings faceRings(const Mesh& mesh, const WeldedMesh& welded) {
       }
   };
   forEachCorner([&](std::uint32_t w, std::uint32_t) { ++out.offsets[w]; });
-  std::uint32_t total = 0;
-  for (std::uint32_t& offset : out.offsets) {
-    const std::uint32_t degree = offset;
-    offset = total;
-    total += degree;
-  }
-  out.faces.resize(total);
+  out.faces.resize(beginLists(out.offsets));
   forEachCorner([&](std::uint32_t w, std::uint32_t f) { out.faces[out.offsets[w]++] = f; });
   for (std::size_t v = count; v > 0; --v) out.offsets[v] = out.offsets[v - 1];  // undo the cursor's advance
   out.offsets[0] = 0;
