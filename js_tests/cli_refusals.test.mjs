@@ -60,7 +60,7 @@ test('usage mistakes are exit 2', async (t) => {
   await refuses(['keygen', 'new.json', '-L', '3'], 2, /exactly one of --image, --size and --id-bits/);
   await refuses(['keygen', 'new.json', '--size', '24'], 2, /WIDTHxHEIGHT/);
   await refuses(['keygen', 'new.json', '--id-bits', '32'], 2, /only 64/);
-  await refuses(['keygen', 'new.json', '--size', '24x24', '--scheme', 'sturdy'], 2, /not available in this version/);
+  await refuses(['keygen', 'new.json', '--size', '24x24', '--scheme', 'sturdy'], 2, /Allowed choices are robust, paper/);
   await refuses(['attack', 'in.ply', 'out.ply'], 2, /--kind/);
   await refuses(['attack', 'in.ply', 'out.ply', '--kind', 'paint'], 2, /paint/);
   await refuses(['attack', 'in.ply', 'out.obj', '--kind', 'reorder'], 2, /\.ply or \.glb/);

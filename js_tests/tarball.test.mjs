@@ -16,10 +16,10 @@ test('the tarball works in an empty folder', { timeout: 180000 }, async (t) => {
   assert.equal(packed.status, 0, packed.stderr);
   const [{ filename, files }] = JSON.parse(packed.stdout);
   const names = files.map(({ path }) => path);
-  for (const name of ['package.json', 'README.md', 'LICENSE', 'dist/quadmark.js', 'dist/quadmark.wasm', 'dist/quadmark_draco.js', 'dist/quadmark_draco.wasm', 'src/index.d.ts', 'src/cli/main.js']) {
+  for (const name of ['package.json', 'README.md', 'LICENSE', 'dist/quadmark.js', 'dist/quadmark.wasm', 'dist/quadmark_draco.js', 'dist/quadmark_draco.wasm', 'src/index.d.ts', 'src/cli/main.js', 'man/quadmark.1']) {
     assert.ok(names.includes(name), `${name} is packed`);
   }
-  for (const name of names) assert.match(name, /^(package\.json|README\.md|LICENSE|(src|dist)\/[\w/.]+)$/, 'nothing else is packed');
+  for (const name of names) assert.match(name, /^(package\.json|README\.md|LICENSE|(src|dist|man)\/[\w/.]+)$/, 'nothing else is packed');
   const manifest = JSON.parse(readFileSync(join(repository, 'node/package.json')));
   assert.equal(manifest.scripts?.install ?? manifest.scripts?.postinstall, undefined, 'no install scripts');
   assert.ok(Object.keys(manifest.dependencies).length <= 6, 'few dependencies');

@@ -21,7 +21,7 @@ export async function attackCommand(input, out, options, output) {
     const start = performance.now();
     if (out === '-' && output.json) throw new QuadmarkError('bad_option', 'the model and --json both want standard output');
     const format = formatOf(out, options.format);
-    const writer = new Writer(options.force, [input]);
+    const writer = new Writer(options, [input]);
     const target = writer.check(out, input);
     const { bytes: model, resources, paths } = await readModelFile(input);
     for (const path of paths.values()) writer.protect(path);

@@ -9,7 +9,7 @@ import { expandGlobs } from './glob.js';
 import { readKey } from './keys.js';
 import { millisSince } from './output.js';
 import { forEachInput, jobCount } from './pool.js';
-import { makeDirectory, Writer } from './write.js';
+import { Writer } from './write.js';
 
 /** [{ input, output }] from IN OUT, or from many inputs and --out-dir. */
 function planJobs(files, options, output) {
@@ -51,8 +51,9 @@ export async function embedCommand(files, options, output) {
     request = { key, id, text, options: { strength, maxError, maxSlide, salt, selfTest } };
     if (options.image !== undefined) request.image = await readInput(options.image, 'cannot read the image');
     const names = [options.key, options.image, ...jobs.map((job) => job.input)].filter((name) => name !== undefined);
-    writer = new Writer(options.force, names);
-    if (options.outDir !== undefined) makeDirectory(options.outDir);
+    writer = new Writer(options, names);
+    if (options.outDir !== undefined) writer.makeDirectory(options.outDir);
+    output.expect(jobs.length);
   } catch (error) {
     return output.failure(null, error);
   }
@@ -74,13 +75,13 @@ async function embedOne({ input, output: out }, image, request, writer, output, 
   const { bytes, resources, report } = await naming(image, ['bad_image'], embed(model.bytes, {
     ...request,
     resources: model.resources,
-    options: { ...request.options, onProgress: output.onProgress },
+    options: { ...request.options, onProgress: output.progressOf(input) },
   }));
   const files = [];
   for (const { uri, path, image } of beside.files) {
     files.push({ path, bytes: resources[uri] ?? model.resources[uri] ?? (await readInput(image)) });
   }
-  for (const { path } of files) makeDirectory(dirname(path));
+  for (const { path } of files) writer.makeDirectory(dirname(path));
   writer.writeAll([...files, { path: target, bytes }]);
   const warnings = [...(report.warnings ?? []), ...beside.warnings];
   const millis = millisSince(start);

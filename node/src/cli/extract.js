@@ -6,9 +6,9 @@ import { exitOfVerdict, worstExit } from './exit.js';
 import { displayName, naming, readInput, readModelFile } from './files.js';
 import { expandGlobs } from './glob.js';
 import { readKey } from './keys.js';
-import { millisSince } from './output.js';
+import { millisSince, painted } from './output.js';
 import { forEachInput, jobCount } from './pool.js';
-import { makeDirectory, Writer } from './write.js';
+import { Writer } from './write.js';
 
 export async function extractCommand(files, options, output) {
   let inputs, writer, request;
@@ -30,8 +30,9 @@ export async function extractCommand(files, options, output) {
     const key = await readKey(options);
     request = { key, expectId: options.expectId, expectText: options.expectText, options: { salt: options.salt } };
     if (options.reference !== undefined) request.reference = await readInput(options.reference, 'cannot read the reference');
-    writer = new Writer(options.force, names);
-    if (options.outDir !== undefined) makeDirectory(options.outDir);
+    writer = new Writer(options, names);
+    if (options.outDir !== undefined) writer.makeDirectory(options.outDir);
+    output.expect(inputs.length);
   } catch (error) {
     return output.failure(null, error);
   }
@@ -62,7 +63,7 @@ async function extractOne(input, options, request, writer, output, extract) {
   const pictures = picturesOf(input, options, writer);
   const { bytes, resources } = await readModelFile(input);
   const result = await naming(options.reference, ['bad_image'], extract(bytes, {
-    ...request, resources, options: { ...request.options, onProgress: output.onProgress },
+    ...request, resources, options: { ...request.options, onProgress: output.progressOf(input) },
   }));
   const warnings = [...result.report.warnings];
   const found = result.image ? pictures : [];
@@ -70,13 +71,13 @@ async function extractOne(input, options, request, writer, output, extract) {
   writer.writeAll(found.map(({ path, of }) => ({ path, bytes: result.image[of] })));
   const millis = millisSince(start);
   return () => {
-    output.result(
-      { input, ...result.report, warnings, millis },
-      describe(input, result, found),
-      found.some(({ path }) => path === '-') ? process.stderr : process.stdout);
+    const stream = found.some(({ path }) => path === '-') ? process.stderr : process.stdout;
+    output.result({ input, ...result.report, warnings, millis }, describe(input, result, found, stream), stream);
     return exitOfVerdict(result.verdict);
   };
 }
+
+const COLOURS = { match: 'good', none: 'bad', inconclusive: 'doubtful' };
 
 const SENTENCES = {
   match: 'the mark of this key is in the model',
@@ -84,10 +85,10 @@ const SENTENCES = {
   inconclusive: 'traces that could be chance',
 };
 
-function describe(input, { verdict, falsePositive, image, id, text, report }, pictures) {
+function describe(input, { verdict, falsePositive, image, id, text, report }, pictures, stream) {
   const sentence = report.expected?.comparison === 'differs' ? 'a mark of this key, but another one' : SENTENCES[verdict];
   const lines = [
-    `${displayName(input)}: ${verdict} (${sentence})`,
+    `${displayName(input)}: ${painted(stream, COLOURS[verdict], verdict)} (${sentence})`,
     `  probability of this without the mark: at most ${falsePositive.toPrecision(2)}`,
   ];
   if (id !== null) lines.push(`  ID ${id}`);

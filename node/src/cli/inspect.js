@@ -13,6 +13,7 @@ export async function inspectCommand(files, options, output) {
   } catch (error) {
     return output.failure(null, error);
   }
+  output.expect(inputs.length);
   const statuses = await forEachInput(
     inputs, jobCount(options.jobs, inputs.length),
     (input, { inspect }) => inspectOne(input, output, inspect),
@@ -20,11 +21,23 @@ export async function inspectCommand(files, options, output) {
   return worstExit(statuses);
 }
 
+/** The glTF extensions that compress or pack geometry. */
+const COMPRESSION = /^(KHR_draco_mesh_compression|(KHR|EXT)_meshopt_compression|KHR_mesh_quantization)$/;
+
 /** Reads one model; the function it returns prints the result. */
 async function inspectOne(input, output, inspect) {
   const start = performance.now();
   const { bytes, resources } = await readModelFile(input);
-  const report = await inspect(bytes, { resources });
+  const { warnings, perNode, ...facts } = await inspect(bytes, { resources });
+  const report = {
+    ...facts,
+    sizeBytes: bytes.length,
+    // Vertices that repeat the place of another one: the two sides of a seam in normals or texture coordinates.
+    seamVertices: facts.vertices - facts.weldedVertices,
+    compression: facts.format === 'drc' ? [facts.variant] : facts.extensionsUsed.filter((name) => COMPRESSION.test(name)),
+    perNode,
+    warnings,
+  };
   const millis = millisSince(start);
   return () => {
     output.result({ input, ...report, millis }, describe(input, report));
@@ -39,9 +52,8 @@ function describe(input, report) {
     for (const [name, value] of Object.entries(object)) {
       if (name === 'warnings') continue;
       if (Array.isArray(value)) {
-        if (value.length === 0) continue;
         if (typeof value[0] !== 'object') {
-          lines.push(`${indent}${name}: ${value.join(', ')}`);
+          lines.push(`${indent}${name}: ${value.length > 0 ? value.join(', ') : 'none'}`);
           continue;
         }
         lines.push(`${indent}${name}:`);

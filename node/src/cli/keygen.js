@@ -49,7 +49,7 @@ export async function keygenCommand(path, options, output) {
     if (path === '-' && output.json) throw new QuadmarkError('bad_option', 'the key and --json both want standard output');
     const { scheme: wanted, because } = schemeOf(options);
     const payload = wanted === 'robust' ? {} : await payloadOf(options);
-    const writer = new Writer(options.force, options.image === undefined ? [] : [options.image]);
+    const writer = new Writer(options, options.image === undefined ? [] : [options.image]);
     const target = writer.check(path, 'the key');
     const request = { owner: options.owner, scheme: wanted, ...payload, ...checkSettings(options.set, ['L']) };
     if (options.firstDigit !== undefined) request.L = options.firstDigit;

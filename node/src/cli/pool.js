@@ -18,14 +18,17 @@ class Pool {
     return worker;
   }
 
-  async call(name, model, { options, ...request }) {
+  /** Functions stay here: a thread reports progress by messages. */
+  async call(name, model, { options = {}, ...request }) {
     const worker = this.#worker();
+    const { onProgress, ...plain } = options;
     let settle;
     const reply = await new Promise((resolve) => {
       const broken = (error) => resolve({ error: { code: 'internal', message: `a worker ended: ${error?.message ?? error}` }, broken: true });
-      settle = { message: resolve, error: broken, exit: broken };
+      const message = (reply) => (reply.progress ? onProgress(reply.progress) : resolve(reply));
+      settle = { message, error: broken, exit: broken };
       for (const [event, listener] of Object.entries(settle)) worker.on(event, listener);
-      worker.postMessage({ name, model, request });
+      worker.postMessage({ name, model, request: name === 'inspect' ? request : { ...request, options: plain }, reports: onProgress !== undefined });
     });
     // Only ours: a worker has listeners of its own.
     for (const [event, listener] of Object.entries(settle)) worker.off(event, listener);

@@ -30,12 +30,19 @@ const identity = (stats) => `${stats.dev}:${stats.ino}`;
 
 export class Writer {
   #force;
+  #dryRun;
   #inputs = new Map();   // identity -> name
   #claimed = new Map();  // resolved target -> name of the input it was written for
+  #promised = new Set(); // directories that a dry run has not made
 
-  /** @param inputs  names of all files that are read in this run: none of them is ever written */
-  constructor(force, inputs) {
+  /**
+   * @param options.force   existing files may be overwritten
+   * @param options.dryRun  everything is checked, nothing is written
+   * @param inputs          names of all files that are read in this run: none of them is ever written
+   */
+  constructor({ force, dryRun }, inputs) {
     this.#force = Boolean(force);
+    this.#dryRun = Boolean(dryRun);
     for (const name of inputs) this.protect(name);
   }
 
@@ -54,7 +61,7 @@ export class Writer {
   check(path, input, { makesDirectories = false } = {}) {
     if (path === '-') return path;
     const parent = statOrNull(dirname(path));
-    if (parent === null && makesDirectories) return this.#claim(path, realPathAhead(path), input);
+    if (parent === null && (makesDirectories || this.#dryRun && this.#promised.has(resolve(dirname(path))))) return this.#claim(path, realPathAhead(path), input);
     if (!parent?.isDirectory()) throw refuse(`cannot write ${path}: ${dirname(path)} is not a directory`);
     const link = statOrNull(path, lstatSync);
     const stats = link && statOrNull(path);
@@ -81,6 +88,7 @@ export class Writer {
    * @param files  [{ path, bytes, mode? }]; paths as check() returned them; "-" is standard output
    */
   writeAll(files) {
+    if (this.#dryRun) return;
     const temporary = [];
     const placed = [];
     try {
@@ -112,6 +120,19 @@ export class Writer {
     for (const { path, bytes } of files) if (path === '-') writeStandardOutput(bytes);
   }
 
+  /** Makes a directory for outputs, with its parents. */
+  makeDirectory(path) {
+    if (this.#dryRun) {
+      this.#promised.add(resolve(path));
+      return;
+    }
+    try {
+      mkdirSync(path, { recursive: true });
+    } catch (error) {
+      throw ioError(`cannot create the directory ${path}`, error);
+    }
+  }
+
   /** Renames; without --force in a way that fails when the target has appeared meanwhile. */
   #place(from, to) {
     if (!this.#force) {
@@ -137,14 +158,5 @@ function attempt(path, action) {
     return action();
   } catch (error) {
     throw error instanceof QuadmarkError ? error : ioError(`cannot write ${path}`, error);
-  }
-}
-
-/** Makes a directory for outputs, with its parents. */
-export function makeDirectory(path) {
-  try {
-    mkdirSync(path, { recursive: true });
-  } catch (error) {
-    throw ioError(`cannot create the directory ${path}`, error);
   }
 }
