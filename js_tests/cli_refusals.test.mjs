@@ -47,8 +47,8 @@ test('usage mistakes are exit 2', async (t) => {
   await refuses(['embed', 'in.ply', 'out.ply', '--bogus'], 2, /unknown option/);
   await refuses(['embed', 'in.ply', ...EMBED], 2, /expected IN and OUT/);
   await refuses(['embed', 'in.ply', 'out.ply', '--image', 'logo.png'], 2, /no key.*QUADMARK_KEY_FILE/);
-  await refuses(['embed', 'in.ply', 'out.ply', '--key', 'key.json'], 2, /exactly one of --image, --id and --text/);
-  await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--id', '1'], 2, /exactly one of --image, --id and --text/);
+  await refuses(['embed', 'in.ply', 'out.ply', '--key', 'key.json'], 2, /exactly one of --image, --id, --text and --recipients/);
+  await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--id', '1'], 2, /exactly one of --image, --id, --text and --recipients/);
   await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--set', 'lambda'], 2, /NAME=VALUE/);
   await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--set', 'strength=1'], 2, /strength: unknown parameter/);
   await refuses(['embed', 'in.ply', 'out.ply', ...EMBED, '--set', 'H1=40'], 2, /H1/);

@@ -7,6 +7,7 @@ import { test } from 'node:test';
 import ts from 'typescript';
 import * as lab from 'quadmark/lab';
 import * as quadmark from 'quadmark';
+import * as recipients from 'quadmark/recipients';
 import { repository } from './support/files.mjs';
 
 /** Names of the values (not types) that a .d.ts exports. */
@@ -36,6 +37,7 @@ function compile(t, source, types = []) {
 test('the types declare exactly what the modules export', () => {
   assert.deepEqual(declaredValues(join(repository, 'node/src/index.d.ts')), Object.keys(quadmark).sort());
   assert.deepEqual(declaredValues(join(repository, 'node/src/lab.d.ts')), Object.keys(lab).sort());
+  assert.deepEqual(declaredValues(join(repository, 'node/src/recipient_files.d.ts')), Object.keys(recipients).sort());
 });
 
 test('the types know every error code', () => {
@@ -50,7 +52,8 @@ test('the types know every error code', () => {
 
 test('correct use compiles under strict', (t) => {
   const messages = compile(t, `
-    import { createKey, embed, extract, inspect, QuadmarkError, type Key, type RobustKey } from 'quadmark';
+    import { createKey, embed, extract, inspect, QuadmarkError, recipientId, trace, type Key, type RobustKey } from 'quadmark';
+    import { parseRecipients, parseRegistry, registryLine, type RegistryEntry } from 'quadmark/recipients';
     import { attack } from 'quadmark/lab';
     const model = new Uint8Array(10);
     const key: Key = await createKey({ width: 24, height: 24, owner: 'me' });
@@ -75,6 +78,9 @@ test('correct use compiles under strict', (t) => {
       if (error instanceof QuadmarkError && error.code === 'bad_file') console.log(error.message);
     }
     console.log(warnings, text, confidence, hex);
+    const entries: RegistryEntry[] = parseRegistry('').entries;
+    const { recipient, trials } = await trace(named.bytes, { key: robust, candidates: [...entries, { recipient: 'Bob', id: await recipientId(robust, 'Bob') }] });
+    console.log(recipient?.length, trials.toFixed(), parseRecipients('recipient\\nBob')[0].line, registryLine(entries[0]));
   `);
   assert.deepEqual(messages, []);
 });

@@ -172,6 +172,67 @@ export interface ExtractResult {
 /** Reads the mark that `key` describes. */
 export function extract(model: Bytes, request: ExtractRequest): Promise<ExtractResult>;
 
+/**
+ * The 64-bit ID of a recipient, 16 hexadecimal digits: HKDF-SHA256 of the key's secret and the name. The same key and name
+ * (trimmed, NFC, up to 256 bytes) always give the same ID; nobody without the key can tell whose one is.
+ */
+export function recipientId(key: KeyInput, recipient: string): Promise<string>;
+
+/** 16 hexadecimal digits that tell keys apart and say nothing about the secret. */
+export function keyFingerprint(key: KeyInput): Promise<string>;
+
+/** Somebody who got a marked copy. Exactly one of `id` and `image`. */
+export interface Candidate {
+  recipient: string;
+  id?: string | bigint;
+  /** Of one size with scheme `paper`: the key's. */
+  image?: ImageInput;
+  /** The salt that the copy was marked with. */
+  salt?: string;
+}
+
+export interface TraceRequest {
+  key: KeyInput;
+  /** Everybody whose copy it could be, as a registry lists them. Equal ones count once. */
+  candidates: Iterable<Candidate>;
+  resources?: Resources;
+  options?: CallOptions & {
+    /** Called after each comparison with a candidate's mark. */
+    onCandidate?: (progress: { done: number; candidates: number }) => void;
+  };
+}
+
+export interface TracedCandidate {
+  recipient: string;
+  id: string | null;
+  salt: string;
+  /** Upper bound on the probability of this much agreement by chance ... */
+  falsePositive: number;
+  /** ... and times the number of candidates, at most 1. */
+  corrected: number;
+}
+
+export interface TraceResult {
+  /** "match": `recipient` is named. "none": no mark, or one of somebody else (`id` says which). */
+  verdict: 'match' | 'none' | 'inconclusive';
+  recipient: string | null;
+  id: string | null;
+  /** Upper bound on the probability of naming anyone wrongly: that of the best candidate times `trials`; match: up to 1e-6. */
+  falsePositive: number;
+  /** "read": the mark was read blindly; "compared": it was too faint for that, and each candidate's was asked for. */
+  method: 'read' | 'compared';
+  /** How many different marks there were to choose from. */
+  trials: number;
+  /** The best candidate and all others that chance does not explain (corrected up to 1e-4), best first. */
+  candidates: TracedCandidate[];
+}
+
+/**
+ * Names the recipient of a copy. Reads the mark first, once per salt; where it is too faint, compares with the mark of each
+ * candidate, which costs as much as one extract() each.
+ */
+export function trace(model: Bytes, request: TraceRequest): Promise<TraceResult>;
+
 /** Describes a model without a key: format, sizes, capacity. */
 export function inspect(model: Bytes, request?: { resources?: Resources }): Promise<Report>;
 

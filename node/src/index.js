@@ -3,6 +3,7 @@
 import factory from '../dist/quadmark.js';
 import { createApi } from './api.js';
 import { Loader } from './load.js';
+import { createRecipients } from './recipients.js';
 
 export { ERROR_EXIT_STATUS, QuadmarkError } from './error.js';
 
@@ -10,6 +11,9 @@ const loader = new Loader(factory, () => new URL('../dist/quadmark.wasm', import
 const dracoLoader = new Loader(async (options) => (await import('../dist/quadmark_draco.js')).default(options),
   () => new URL('../dist/quadmark_draco.wasm', import.meta.url));
 
+const api = createApi(loader, dracoLoader);
+
 export const {
   embed, extract, inspect, externalUris, createKey, parseKey, decodeImage, encodeImage, version, load, unload, memoryBytes,
-} = createApi(loader, dracoLoader);
+} = api;
+export const { recipientId, keyFingerprint, trace } = createRecipients(api);

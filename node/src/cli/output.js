@@ -52,13 +52,13 @@ export class Output {
     if (!this.#quiet) for (const warning of report.warnings ?? []) this.log(`warning: ${warning}`);
   }
 
-  /** One input failed, or (input null) the command as a whole. Returns the exit status. */
-  failure(input, error) {
+  /** One input failed, or (input null) the command as a whole. `more` joins the JSON. Returns the exit status. */
+  failure(input, error, more = {}) {
     this.#bar?.clear(input ?? undefined);
     const known = error instanceof QuadmarkError ? error : new QuadmarkError('internal', error?.stack ?? String(error));
     if (this.#json) {
       const { code, message } = known;
-      process.stdout.write(`${JSON.stringify({ command: this.#command, input, error: { code, message } })}\n`);
+      process.stdout.write(`${JSON.stringify({ command: this.#command, input, ...more, error: { code, message } })}\n`);
     }
     const place = input === null ? '' : `${input === '-' ? 'standard input' : input}: `;
     process.stderr.write(`quadmark ${this.#command}: ${place}${painted(process.stderr, 'bad', known.message)} (${known.code})\n`);

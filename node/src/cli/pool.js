@@ -10,7 +10,7 @@ class Pool {
   #idle = [];
   #all = [];
 
-  /** There are never more calls at once than workers: forEachInput() has as many lanes. */
+  /** An idle worker or a new one: callers see to it that there are not too many calls at once. */
   #worker() {
     if (this.#idle.length > 0) return this.#idle.pop();
     const worker = new Worker(new URL('./worker.js', import.meta.url));
@@ -52,10 +52,11 @@ export function jobCount(wanted, inputs) {
  * Handles inputs, up to `jobs` at once.
  * @param handle  (input, calls) => function that prints its result and returns its exit status; may throw
  * @param fail    (input, error) => exit status
+ * @param threads  whether the calls go to worker threads; one input may then make several at once
  * @return the exit statuses in the order of the inputs
  */
-export async function forEachInput(inputs, jobs, handle, fail) {
-  const pool = jobs > 1 ? new Pool() : null;
+export async function forEachInput(inputs, jobs, handle, fail, { threads = jobs > 1 } = {}) {
+  const pool = threads ? new Pool() : null;
   const calls = pool
     ? Object.fromEntries(['embed', 'extract', 'inspect'].map((name) => [name, (model, request) => pool.call(name, model, request)]))
     : { embed, extract, inspect };

@@ -12,6 +12,7 @@ import { inspectCommand } from './inspect.js';
 import { keygenCommand } from './keygen.js';
 import { manualPage } from './manual.js';
 import { Output } from './output.js';
+import { traceCommand } from './trace.js';
 import { collectSetting, parseNumber, parseSize, parseWhole } from './values.js';
 
 const { version } = JSON.parse(readFileSync(new URL('../../package.json', import.meta.url), 'utf8'));
@@ -81,7 +82,7 @@ export function createProgram(finish = () => {}) {
     .option(...force);
 
   define('embed', 'mark models', embedCommand)
-    .argument('<files...>', 'IN OUT, or many inputs and globs with --out-dir')
+    .argument('<files...>', 'IN OUT, or many inputs and globs with --out-dir or --recipients')
     .addOption(keyOption())
     .option('--image <logo.png>', 'picture to embed; with scheme paper of the key\'s size (default: none)')
     .option('--id <hex>', '64-bit ID to embed, 1 to 16 hexadecimal digits (default: none)')
@@ -93,6 +94,8 @@ export function createProgram(finish = () => {}) {
     .option('--self-test', 'damage the marked model in six ways and report which it withstands (default: off)')
     .addOption(schemeOption('fail unless the key is for this scheme (default: the key\'s)'))
     .option('--out-dir <dir>', 'write each marked model here under its own name (default: OUT is given)')
+    .option('--recipients <list.csv>', 'mark one copy for each recipient in DIR/RECIPIENT/, by an ID of its own or the picture in the column image (default: none)')
+    .option('--registry <reg.jsonl>', 'note who got which mark here; goes with --recipients (default: none)')
     .option(...jobs)
     .addOption(setOption('parameter of the key to override, for reading too (repeatable; default: the key\'s)'))
     .option(...dryRun)
@@ -112,6 +115,13 @@ export function createProgram(finish = () => {}) {
     .addOption(setOption('parameter of the key to override (repeatable; default: the key\'s)'))
     .option(...dryRun)
     .option(...force);
+
+  define('trace', 'name the recipient of a leaked copy', traceCommand)
+    .argument('<files...>', 'models or globs')
+    .addOption(keyOption())
+    .requiredOption('--registry <reg.jsonl>', 'what embed --recipients wrote, needed')
+    .option('--salt <text>', 'only entries with this salt (default: all)')
+    .option('--jobs <count>', 'compare with this many candidates at once, in threads; 0 takes one per processor', parseWhole, 1);
 
   define('inspect', 'describe models without a key', inspectCommand)
     .argument('<files...>', 'models or globs')
