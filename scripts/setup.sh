@@ -61,7 +61,7 @@ install_packages() {
 
 # 1. Compilers and libraries.
 install_packages ca-certificates g++ cmake ninja-build libeigen3-dev nlohmann-json3-dev libstb-dev \
-  libgtest-dev googletest libdraco-dev libmeshoptimizer-dev xz-utils clang libclang-rt-dev
+  libgtest-dev googletest libdraco-dev libmeshoptimizer-dev xz-utils clang libclang-rt-dev curl redis-server
 
 # 2. Emscripten: an activated emsdk wins; else the distribution's.
 have em++ || install_packages emscripten

@@ -12,6 +12,7 @@ import { inspectCommand } from './inspect.js';
 import { keygenCommand } from './keygen.js';
 import { manualPage } from './manual.js';
 import { Output } from './output.js';
+import { defineServe } from './serve.js';
 import { traceCommand } from './trace.js';
 import { collectSetting, parseNumber, parseSize, parseWhole } from './values.js';
 
@@ -139,6 +140,8 @@ export function createProgram(finish = () => {}) {
     .option(...dryRun)
     .option(...force)
     .addHelpText('after', `\nKinds:\n${Object.entries(ATTACKS).map(([kind, what]) => `  ${kind.padEnd(12)} ${what}`).join('\n')}`);
+
+  defineServe(define);
 
   // These two speak of the grammar itself.
   program.command('completion').description('print a completion script for a shell')
