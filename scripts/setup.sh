@@ -61,13 +61,26 @@ install_packages() {
 
 # 1. Compilers and libraries.
 install_packages ca-certificates g++ cmake ninja-build libeigen3-dev nlohmann-json3-dev libstb-dev \
-  libgtest-dev googletest libdraco-dev libmeshoptimizer-dev xz-utils clang libclang-rt-dev curl redis-server
+  libgtest-dev googletest libdraco-dev libmeshoptimizer-dev xz-utils clang libclang-rt-dev curl
 
 # 2. Emscripten: an activated emsdk wins; else the distribution's.
 have em++ || install_packages emscripten
 have em++ || fail "em++ is not on PATH after installing emscripten"
 em_version=$(em++ --version 2>/dev/null | sed -nE '1s/.*[^0-9]([0-9]+\.[0-9]+\.[0-9]+).*/\1/p')
 at_least "${em_version:-0}" $em_minimum || fail "em++ is ${em_version:-of unknown version}, at least $em_minimum is needed"
+
+#    Redis, for the queue's tests, which run their own. Its package would leave a server running on this machine; the
+#    same program is in redis-tools, under another name.
+redis=$(command -v redis-server || true)
+if [ -z "$redis" ]; then
+  redis=$deps/redis/redis-server
+  if [ ! -x "$redis" ]; then
+    install_packages redis-tools
+    mkdir -p "$deps/redis"
+    ln -s "$(command -v redis-check-rdb)" "$redis"
+  fi
+fi
+"$redis" --version 2>/dev/null | grep -q '^Redis server' || fail "$redis is no Redis server; put a redis-server on PATH"
 
 # 3. Node: the system's from $node_minimum up, else the one of the npm package node-linux-*, below build/deps.
 node_bin=
@@ -164,6 +177,7 @@ fi
 {
   echo "# Written by scripts/setup.sh."
   [ -z "$node_bin" ] || echo "export PATH='$node_bin':\"\$PATH\""
+  echo "export QUADMARK_REDIS_SERVER='$redis'"
   [ -z "$browser" ] || echo "export QUADMARK_CHROMIUM='$browser'"
 } >"$deps/env.sh"
 
