@@ -34,7 +34,7 @@ async function serveCommand(options, output) {
 /** Adds the command to the program. */
 export function defineServe(define) {
   define('serve', 'answer HTTP requests to mark and read models (needs the package quadmark-server)', serveCommand)
-    .requiredOption('--keys <dir>', 'directory of the keys: requests name ID for the key ID.json')
+    .requiredOption('--keys <dir>', 'directory of the keys, needed: requests name ID for the key ID.json')
     .option('--host <address>', 'address to bind to', '127.0.0.1')
     .option('--port <number>', 'port; 0 takes a free one', parseWhole, 8080)
     .option('--threads <count>', 'calls worked on at once (default: one per processor)', parseWhole)
