@@ -23,6 +23,7 @@ async function workspace(t) {
   writeFileSync(join(folder, 'package.json'), '{ "type": "module" }');
   mkdirSync(join(folder, 'node_modules'));
   symlinkSync(join(repository, 'node'), join(folder, 'node_modules/quadmark'));
+  symlinkSync(join(repository, 'node_modules/@gltf-transform'), join(folder, 'node_modules/@gltf-transform'));
   mkdirSync(join(folder, 'bin'));
   symlinkSync(cliFile, join(folder, 'bin/quadmark'));
   return folder;

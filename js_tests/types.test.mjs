@@ -7,6 +7,7 @@ import { test } from 'node:test';
 import ts from 'typescript';
 import * as lab from 'quadmark/lab';
 import * as quadmark from 'quadmark';
+import * as gltfTransform from 'quadmark/gltf-transform';
 import * as recipients from 'quadmark/recipients';
 import { repository } from './support/files.mjs';
 
@@ -29,7 +30,7 @@ function compile(t, source, types = []) {
   writeFileSync(file, source);
   const program = ts.createProgram([file], {
     noEmit: true, strict: true, target: ts.ScriptTarget.ES2022, module: ts.ModuleKind.NodeNext,
-    moduleResolution: ts.ModuleResolutionKind.NodeNext, lib: ['lib.es2022.d.ts', 'lib.dom.d.ts'], types,
+    moduleResolution: ts.ModuleResolutionKind.NodeNext, lib: ['lib.es2022.d.ts', 'lib.esnext.float16.d.ts', 'lib.dom.d.ts'], types,
   });
   return ts.getPreEmitDiagnostics(program).map((item) => ts.flattenDiagnosticMessageText(item.messageText, '\n'));
 }
@@ -38,6 +39,7 @@ test('the types declare exactly what the modules export', () => {
   assert.deepEqual(declaredValues(join(repository, 'node/src/index.d.ts')), Object.keys(quadmark).sort());
   assert.deepEqual(declaredValues(join(repository, 'node/src/lab.d.ts')), Object.keys(lab).sort());
   assert.deepEqual(declaredValues(join(repository, 'node/src/recipient_files.d.ts')), Object.keys(recipients).sort());
+  assert.deepEqual(declaredValues(join(repository, 'node/src/gltf_transform/index.d.ts')), Object.keys(gltfTransform).sort());
 });
 
 test('the types know every error code', () => {
@@ -53,6 +55,8 @@ test('the types know every error code', () => {
 test('correct use compiles under strict', (t) => {
   const messages = compile(t, `
     import { createKey, embed, extract, inspect, QuadmarkError, recipientId, trace, type Key, type RobustKey } from 'quadmark';
+    import { Document } from '@gltf-transform/core';
+    import { quadmark as mark, QUADMARK_DEFAULTS } from 'quadmark/gltf-transform';
     import { parseRecipients, parseRegistry, registryLine, type RegistryEntry } from 'quadmark/recipients';
     import { attack } from 'quadmark/lab';
     const model = new Uint8Array(10);
@@ -80,6 +84,7 @@ test('correct use compiles under strict', (t) => {
     console.log(warnings, text, confidence, hex);
     const entries: RegistryEntry[] = parseRegistry('').entries;
     const { recipient, trials } = await trace(named.bytes, { key: robust, candidates: [...entries, { recipient: 'Bob', id: await recipientId(robust, 'Bob') }] });
+    await new Document().transform(mark({ key: robust, id: 1n, strength: QUADMARK_DEFAULTS.strength, onReport: ({ warnings: said }) => console.log(said) }));
     console.log(recipient?.length, trials.toFixed(), parseRecipients('recipient\\nBob')[0].line, registryLine(entries[0]));
   `);
   assert.deepEqual(messages, []);
