@@ -6,8 +6,8 @@ import { join } from 'node:path';
 import { after, test } from 'node:test';
 import { createKey, embed, extract } from 'quadmark';
 import { attack } from 'quadmark/lab';
-import { assertPicture, assertQuiet, drop, markedSculpture, onDisk, openPage, pageRoot, picture, screenshot, shown, startBrowser, waitFor } from './page_helpers.mjs';
-import { realModel } from './support/files.mjs';
+import { assertPicture, assertQuiet, drop, markedSculpture, onDisk, openPage, picture, screenshot, shown, startBrowser, waitFor } from './page_helpers.mjs';
+import { realModel, repository } from './support/files.mjs';
 import { splitGlb } from './support/gltf.mjs';
 import { logo, logoPng } from './support/marks.mjs';
 
@@ -18,7 +18,7 @@ test('the page loads quietly, and nothing is asked of any other origin', async (
   const { page, seen } = await openPage(t, browser);
   assert.equal(await page.title(), 'quadmark: is this model marked?');
   assert.equal(await page.locator('#check').isDisabled(), true);
-    await screenshot(page, '01-idle');
+  await screenshot(page, '01-idle');
   assertQuiet(seen, browser.url);
 });
 
@@ -31,13 +31,7 @@ test('a marked GLB and its key, dropped together, give a match and the exact pic
   assert.equal(verdict, 'This model carries the mark of this key.');
   assert.match(odds, /^1 in 10\s*\d{2,3}$/);
   await assertPicture(page, image);
-  const confidence = await picture(page, 'confidence');
-  const { image: expected } = await extract(marked, { key });
-  assert.deepEqual([confidence.width, confidence.height], [24, 24]);
-  expected.confidence.forEach((value, i) => assert.ok(Math.abs(confidence.levels[i] - 255 * value) <= 1, `pixel ${i}`));
   assert.match(await page.locator('#verdict-files').innerText(), /sculpture\.glb · key\.json · key of the tests/);
-  const [large, beside] = await Promise.all(['#image', '#confidence'].map((id) => page.locator(id).boundingBox()));
-  assert.ok(large.width > beside.width && beside.x >= large.x + large.width, 'the picture is large, the confidence beside it');
   await screenshot(page, '02-match');
   assert.ok(seen.requests.some((url) => url.endsWith('.wasm')), 'requests of the worker are watched too');
   assertQuiet(seen, browser.url);
@@ -128,6 +122,11 @@ test('a damaged model still matches, with unread pixels said', async (t) => {
   await waitFor(page, 'match');
   const { levels } = await picture(page, 'image');
   assert.deepEqual(levels, Array.from(expected.image.bits, (bit, i) => (expected.image.erased[i] ? 128 : bit ? 0 : 255)));
+  const confidence = await picture(page, 'confidence');
+  assert.deepEqual([confidence.width, confidence.height], [24, 24]);
+  expected.image.confidence.forEach((value, i) => assert.ok(Math.abs(confidence.levels[i] - 255 * value) <= 1, `pixel ${i}`));
+  const [large, beside] = await Promise.all(['#image', '#confidence'].map((id) => page.locator(id).boundingBox()));
+  assert.ok(large.width > beside.width && beside.x >= large.x + large.width, 'the picture is large, the confidence beside it');
   const unread = expected.image.erased.reduce((sum, bit) => sum + bit, 0);
   assert.match(await page.locator('#image-caption').innerText(), unread > 0 ? new RegExp(`${unread} pixels? could not be read`) : /^24 × 24$/);
   await screenshot(page, '05-damaged');
@@ -163,41 +162,33 @@ test('a hidden ID is shown in hexadecimal', async (t) => {
   assertQuiet(seen, browser.url);
 });
 
-test('the samples show a match, a damaged match and no mark', async (t) => {
+test('the samples show a match, a damaged match, no mark, and no mark under a wrong key', async (t) => {
   const { page, seen } = await openPage(t, browser);
-  const sampleKey = JSON.parse(await readFile(join(pageRoot, 'sample/key.json')));
-  const marks = await readFile(join(pageRoot, 'sample/marked.glb'));
-  const expected = await extract(marks, { key: sampleKey });
+  const samples = join(repository, 'web/samples');
+  const [sampleKey, marks, damaged, sampleLogo] = await Promise.all(['key.json', 'marked.glb', 'damaged.glb', 'logo.png'].map((name) => readFile(join(samples, name))));
   await page.locator('[data-sample="marked"]').click();
   await waitFor(page, 'match');
-  await assertPicture(page, expected.image);
+  await assertPicture(page, (await extract(marks, { key: sampleKey })).image);
   assert.equal(await page.locator('#reference-caption').innerText(), 'is the same in every pixel');
+  assert.equal(await page.locator('#agreement').innerText(), '100 % agreement');
+  assert.equal(await page.locator('#confidence-figure').isVisible(), false, 'nothing is drawn where every pixel is certain');
   await screenshot(page, '08-sample');
-  await page.locator('[data-sample="unmarked"]').click();
-  await waitFor(page, 'none');
+  for (const name of ['unmarked', 'wrong']) {
+    await page.locator(`[data-sample="${name}"]`).click();
+    await page.waitForFunction((file) => document.getElementById('verdict-files').textContent.startsWith(file), name === 'wrong' ? 'marked.glb · wrong' : 'unmarked.glb');
+    await waitFor(page, 'none');
+    assert.equal(await page.locator('#pictures').isVisible(), false, 'scheme robust shows no picture where there is none');
+    await screenshot(page, `08-sample-${name}`);
+  }
+  assert.match(await page.locator('#verdict-files').innerText(), /wrong-key\.json · key of somebody else$/);
   await page.locator('[data-sample="damaged"]').click();
   await waitFor(page, 'match');
+  const { image } = await extract(damaged, { key: sampleKey, reference: sampleLogo });
+  assert.deepEqual((await picture(page, 'image')).levels, Array.from(image.bits, (bit, i) => (image.erased[i] ? 128 : bit ? 0 : 255)));
   assert.match(await page.locator('#reference-caption').innerText(), /differs in \d+ pixels/);
+  assert.match(await page.locator('#agreement').innerText(), /^9\d(\.\d)? % agreement$/);
   await screenshot(page, '09-sample-damaged');
   assertQuiet(seen, browser.url);
-});
-
-test('the report and the picture can be saved', async (t) => {
-  const { page } = await openPage(t, browser);
-  await drop(page, onDisk(t, { 'sculpture.glb': marked, 'key.json': key }).paths);
-  await waitFor(page, 'match');
-  const save = async (id) => {
-    const [download] = await Promise.all([page.waitForEvent('download'), page.locator(id).click()]);
-    return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
-  };
-  const report = await save('#save-report');
-  assert.equal(report.name, 'sculpture.report.json');
-  const { millis, ...told } = JSON.parse(report.bytes);
-  assert.equal(typeof millis, 'number');
-  assert.deepEqual(told, { command: 'extract', input: 'sculpture.glb', ...(await extract(marked, { key })).report });
-  const saved = await save('#save-image');
-  assert.equal(saved.name, 'sculpture.mark.png');
-  assert.deepEqual(saved.bytes, Buffer.from((await extract(marked, { key })).image.png));
 });
 
 test('real models read on the page as they do in Node', async (t) => {

@@ -3,6 +3,7 @@
 // person does (files dropped through the browser's own drag and drop, buttons, keys).
 import assert from 'node:assert/strict';
 import { existsSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { readFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { chromium } from 'playwright-core';
@@ -13,10 +14,11 @@ import { repository } from './support/files.mjs';
 import { logo } from './support/marks.mjs';
 
 export const pageRoot = join(repository, 'web/dist');
-const screenshots = join(repository, 'out/screenshots');
+/** Pictures and papers of each state, for the eye. */
+export const screenshots = join(repository, 'build/screenshots');
 
 /** Starts server and browser for one test file; both end with its tests. `after` is node:test's. */
-export async function startBrowser(after) {
+export async function startBrowser(after, { serviceWorkers = 'block', viewport = { width: 1280, height: 860 } } = {}) {
   assert.ok(existsSync(join(pageRoot, 'index.html')), 'the page is not built: npm run build --workspace web');
   const { server, url } = await servePage({ root: pageRoot });
   const profile = mkdtempSync(join(tmpdir(), 'quadmark-chromium-'));
@@ -30,10 +32,11 @@ export async function startBrowser(after) {
   context = await chromium.launchPersistentContext(profile, {
     executablePath: process.env.QUADMARK_CHROMIUM || '/usr/bin/chromium',
     headless: true,
-    viewport: { width: 1280, height: 860 },
+    viewport,
     acceptDownloads: true,
-    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-      '--disable-component-update', '--disable-sync'],
+    serviceWorkers,
+    args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
+      '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
   });
   return { context, url };
 }
@@ -46,6 +49,8 @@ export async function openPage(t, { context, url }, { path = '' } = {}) {
   const page = await context.newPage();
   const seen = { trouble: [], requests: [], headers: new Map() };
   page.on('console', (message) => {
+    // Said by the test's own tool where a test wants no service worker.
+    if (message.text() === 'Service Worker registration blocked by Playwright') return;
     if (['error', 'warning'].includes(message.type())) seen.trouble.push(`console: ${message.text()}`);
   });
   page.on('pageerror', (error) => seen.trouble.push(`exception: ${error.message}`));
@@ -79,6 +84,13 @@ export function assertQuiet(seen, url) {
   assert.deepEqual(seen.trouble, []);
   const origin = new URL(url).origin;
   assert.deepEqual(seen.requests.filter((request) => !request.startsWith(`${origin}/`) && !request.startsWith(`blob:${origin}/`)), []);
+}
+
+/** Waits until the 3D view below `id` draws or says why not; returns "ready" or "failed". */
+export async function waitForView(page, id = 'view') {
+  await page.locator(`#${id}`).scrollIntoViewIfNeeded();
+  await page.waitForFunction((name) => ['ready', 'failed'].includes(document.getElementById(name).dataset.state), id, { timeout: 60000 });
+  return page.locator(`#${id}`).getAttribute('data-state');
 }
 
 /** Writes { name: bytes } into a fresh folder of the test and returns { folder, paths }. */
@@ -152,7 +164,13 @@ export async function assertPicture(page, image) {
   assert.deepEqual(levels, Array.from(image.bits, (bit) => (bit ? 0 : 255)));
 }
 
-/** Leaves out/screenshots/<name>.png for the eye. */
+/** Clicks a link that downloads; { name, bytes } of the file. */
+export async function save(page, selector) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator(selector).click()]);
+  return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
+}
+
+/** Leaves <name>.png for the eye. */
 export async function screenshot(page, name, options = {}) {
   mkdirSync(screenshots, { recursive: true });
   await page.screenshot({ path: join(screenshots, `${name}.png`), fullPage: true, ...options });

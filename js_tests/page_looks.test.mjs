@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How the page looks: wide and narrow, light and dark. What can be measured is (nothing sticks out, text contrasts,
-// verdicts differ without colour); out/screenshots holds the rest for the eye.
+// verdicts differ without colour); build/screenshots holds the rest for the eye.
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { createKey, embed, extract } from 'quadmark';
@@ -55,7 +55,7 @@ for (const scheme of ['light', 'dark']) {
       await check('idle');
       await page.locator('[data-sample="damaged"]').click();
       await waitFor(page, 'match');
-      await page.locator('summary').click();
+      await page.locator('#numbers summary').click();
       await check('match');
       await page.locator('[data-sample="unmarked"]').click();
       await waitFor(page, 'none');

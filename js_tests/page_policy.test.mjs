@@ -45,7 +45,7 @@ test('everything is sent with the policy and its right type, the worker script t
   await waitFor(page, 'match');
   const types = { '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.glb': 'model/gltf-binary', '.json': 'application/json', '.svg': 'image/svg+xml' };
   const files = [...seen.headers].filter(([url]) => url.startsWith(browser.url));
-  assert.equal(files.filter(([url]) => url.endsWith('.js')).length, 2, 'the page\'s script and the worker\'s');
+  assert.ok(files.filter(([url]) => url.endsWith('.js')).length >= 2, 'the page\'s script and the worker\'s');
   for (const extension of ['.js', '.css', '.wasm', '.glb', '.json']) {
     assert.ok(files.some(([url]) => url.endsWith(extension)), `${extension} was asked for`);
   }
@@ -115,8 +115,8 @@ test('a detector or a sample that cannot be loaded is said, and may be tried aga
     await page.locator('#check').click();
     await waitFor(page, 'match');
   }
-  await browser.context.route(/key\.json$/, (route) => route.fulfill({ status: 500, body: 'no' }));
-  t.after(() => browser.context.unroute(/key\.json$/));
+  await browser.context.route(/\/key-[^/]*\.json$/, (route) => route.fulfill({ status: 500, body: 'no' }));
+  t.after(() => browser.context.unroute(/\/key-[^/]*\.json$/));
   await page.reload();
   await page.locator('[data-sample="marked"]').click();
   await page.locator('#notices li').waitFor();

@@ -92,16 +92,16 @@ test('a glTF without its buffers names them, and goes on when they come', async 
   assertQuiet(seen, browser.url);  // above all: it was not fetched
 });
 
-test('files of no use, and too many of a kind, are said and change nothing', async (t) => {
+test('files of no use, and two keys at once, are said and change nothing', async (t) => {
   const { page, seen } = await openPage(t, browser);
   await drop(page, onDisk(t, { 'photo.jpg': 'not one of ours' }).paths);
   await page.locator('#notices li').waitFor();
   assert.deepEqual((await shown(page)).notices, ['photo.jpg was left aside: it is neither a model (GLB, glTF, PLY, DRC), nor a key file, nor a PNG picture.']);
-  await drop(page, onDisk(t, { 'a.glb': marked, 'b.glb': marked, 'key.json': key }).paths);
-  await page.waitForFunction(() => document.getElementById('idle-text').textContent === 'The key is here. Now add the model.');
-  assert.deepEqual((await shown(page)).notices, ['2 models at once (a.glb, b.glb): give one at a time.']);
-  await screenshot(page, '13-two-models');
-  await drop(page, onDisk(t, { 'a.glb': marked }).paths);
+  await drop(page, onDisk(t, { 'a.glb': marked, 'one.json': key, 'two.json': key }).paths);
+  await page.waitForFunction(() => document.getElementById('idle-text').textContent === 'The model is here. Now add the key file.');
+  assert.deepEqual((await shown(page)).notices, ['2 key files at once (one.json, two.json): give one at a time.']);
+  await screenshot(page, '13-two-keys');
+  await drop(page, onDisk(t, { 'key.json': key }).paths);
   await waitFor(page, 'match');
   assert.deepEqual((await shown(page)).notices, [], 'old notices go');
   assertQuiet(seen, browser.url);
@@ -130,12 +130,13 @@ test('the veil shows while files hang over the page', async (t) => {
 
 test('everything is reached with the keyboard alone', async (t) => {
   const { page, seen } = await openPage(t, browser);
+  await page.bringToFront();  // choosers open for the tab in front alone
   const order = [];
-  for (let i = 0; i < 6; ++i) {
+  for (let i = 0; i < 13; ++i) {
     await page.keyboard.press('Tab');
-    order.push(await page.evaluate(() => document.activeElement.id || document.activeElement.dataset.sample));
+    order.push(await page.evaluate(() => document.activeElement.id || document.activeElement.dataset.sample || document.activeElement.className || document.activeElement.localName));
   }
-  assert.deepEqual(order, ['model-input', 'key-input', 'reference-input', 'marked', 'damaged', 'unmarked']);
+  assert.deepEqual(order, ['skip', 'tab-verify', 'language', 'model-input', 'folder-input', 'key-input', 'summary', 'reference-input', 'marked', 'damaged', 'unmarked', 'wrong', 'one-file']);
   const { paths: [glb, json] } = onDisk(t, { 'model.glb': marked, 'key.json': key });
   for (const [input, file] of [['model-input', glb], ['key-input', json]]) {
     await page.locator(`#${input}`).focus();
@@ -145,6 +146,7 @@ test('everything is reached with the keyboard alone', async (t) => {
     await chooser.setFiles(file);
   }
   await waitFor(page, 'match');
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'verdict', 'the focus goes to the verdict');
   await page.locator('[data-clear="key"]').focus();
   await page.keyboard.press('Enter');
   await waitFor(page, 'idle');

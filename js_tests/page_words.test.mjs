@@ -3,8 +3,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { ERROR_EXIT_STATUS } from 'quadmark';
-import { findPart, sortItems, splitStrangers } from '../web/src/files.js';
-import { missingWords, oneIn, oneInSpoken, problemWords, sentence, sizeWords, verdictWords } from '../web/src/words.js';
+import { findPart } from '../web/src/files/paths.js';
+import { sortItems, splitStrangers } from '../web/src/files/sort.js';
+import { LANGUAGES, scientific, setLanguage, sizeWords, TEXTS } from '../web/src/words/language.js';
+import { oneIn, oneInSpoken, verdictWords } from '../web/src/words/odds.js';
+import { missingWords, problemWords, sentence } from '../web/src/words/problems.js';
 
 const item = (path, ...content) => ({ path, file: new File(content, path.slice(path.lastIndexOf('/') + 1)) });
 const PNG = Uint8Array.of(0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a);
@@ -58,20 +61,42 @@ test('files are told apart by content before name', async () => {
   const sorted = await sortItems([
     item('model.txt', 'ply\nformat ascii 1.0\n'), item('key', '{"quadmark": 1}'), item('picture.dat', PNG), item('notes.md', 'hello'),
   ]);
-  assert.deepEqual([sorted.model.path, sorted.key.path, sorted.reference.path], ['model.txt', 'key', 'picture.dat']);
+  assert.deepEqual([sorted.models[0].path, sorted.key.path, sorted.reference.path], ['model.txt', 'key', 'picture.dat']);
   assert.deepEqual(sorted.parts.map(({ path }) => path), ['notes.md']);
   assert.deepEqual(sorted.notices, []);
-  assert.equal((await sortItems([item('a.gltf', '\ufeff  {"asset": {"version": "2.0"}}')])).model.path, 'a.gltf');
-  assert.equal((await sortItems([item('a.ply')])).model.path, 'a.ply', 'an empty file is what its name says');
+  assert.equal((await sortItems([item('a.gltf', '\ufeff  {"asset": {"version": "2.0"}}')])).models[0].path, 'a.gltf');
+  assert.equal((await sortItems([item('a.ply')])).models[0].path, 'a.ply', 'an empty file is what its name says');
   assert.equal((await sortItems([item('k.json', 'oops')])).key.path, 'k.json');
-  assert.equal((await sortItems([item('plywood.txt', 'plywood')])).model, undefined);
+  assert.deepEqual((await sortItems([item('plywood.txt', 'plywood')])).models, []);
+  assert.equal((await sortItems([item('a.dat', Uint8Array.of(0x50, 0x4b, 3, 4))])).archives[0].path, 'a.dat');
 });
 
-test('two of a kind are refused by name', async () => {
-  const sorted = await sortItems([item('a.glb', 'glTF'), item('b.ply', 'ply\n'), item('k.json', '{"quadmark": 1}')]);
-  assert.equal(sorted.model, undefined);
-  assert.equal(sorted.key.path, 'k.json');
-  assert.deepEqual(sorted.notices, ['2 models at once (a.glb, b.ply): give one at a time.']);
+test('models may be many, keys may not', async () => {
+  const sorted = await sortItems([item('a.glb', 'glTF'), item('b.ply', 'ply\n'), item('k.json', '{"quadmark": 1}'), item('l.json', '{"quadmark": 1}')]);
+  assert.deepEqual(sorted.models.map(({ path }) => path), ['a.glb', 'b.ply']);
+  assert.equal(sorted.key, undefined);
+  assert.deepEqual(sorted.notices, ['2 key files at once (k.json, l.json): give one at a time.']);
+});
+
+test('every text is there in both languages, and fills the same gaps', () => {
+  for (const [name, texts] of Object.entries(TEXTS)) {
+    assert.equal(texts.length, LANGUAGES.length, name);
+    assert.equal(new Set(texts.map((text) => typeof text)).size, 1, name);
+    for (const text of texts) if (typeof text === 'string') assert.equal(text, text.trim(), name);
+  }
+});
+
+test('German words and numbers', (t) => {
+  setLanguage('de');
+  t.after(() => setLanguage('en'));
+  assert.equal(oneIn(1 / 48123).text, '1 zu 48.100');
+  assert.equal(oneIn(1 / 2.39e9).text, '1 zu 2,3 Milliarden');
+  assert.equal(oneIn(1 / 1.04e6).text, '1 zu 1 Million');
+  assert.equal(oneInSpoken(1e-23), '1 zu 10 hoch 23');
+  assert.equal(verdictWords({ verdict: 'match', falsePositive: 1e-20 }).label, 'Treffer');
+  assert.equal(problemWords({ about: 'model', code: 'bad_file', message: 'cut off' }, { model: 'a.glb' }).title, 'a.glb ist nicht lesbar.');
+  assert.deepEqual([1, 1.5e6].map(sizeWords), ['1 Byte', '1,5 MB']);
+  assert.deepEqual([0, 0.0125, 5.74e-10].map(scientific), ['0', '0,0125', '5,7 × 10⁻¹⁰']);
 });
 
 test('pictures a glTF uses are its textures, and a folder full of them is no reference', async () => {
@@ -94,8 +119,8 @@ test('buffers are found beside their glTF, by name when alone', () => {
 
 test('strangers are named unless they may belong to a glTF or came with a folder', () => {
   const items = [item('a.jpg'), item('b.bin'), item('f/c.txt')];
-  const loose = splitStrangers(items, undefined);
+  const loose = splitStrangers(items, []);
   assert.deepEqual(loose.notices.map((text) => text.split(' ')[0]), ['a.jpg']);
   assert.deepEqual(loose.parts.map(({ path }) => path), ['b.bin']);
-  assert.deepEqual(splitStrangers(items, item('s.gltf')), { parts: items, notices: [] });
+  assert.deepEqual(splitStrangers(items, [item('s.gltf')]), { parts: items, notices: [] });
 });

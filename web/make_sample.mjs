@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: MIT
-// Makes the files behind "Try a sample" in public/sample/: a generated sculpture, marked, damaged and untouched, with
-// its key and logo. All made by our own code; nothing here is kept under version control.
+// Makes the files behind "Try a sample" in samples/: a generated sculpture, marked, damaged and untouched, with its
+// key, another key and the logo. All made by our own code; nothing here is kept under version control.
 import { createHash } from 'node:crypto';
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { embed, encodeImage, extract, parseKey } from 'quadmark';
 import { attack, generate } from 'quadmark/lab';
 import { drawEmblem } from '../scripts/support/emblem.mjs';
 
-const SIZE = 32;
-const folder = new URL('./public/sample/', import.meta.url);
+const SIZE = 24;
+const folder = new URL('./samples/', import.meta.url);
 
-// A key that everybody has: its secret is the hash of a sentence, so that each build makes the same files.
-const key = await parseKey({
-  quadmark: 1,
-  scheme: 'paper',
-  secret: createHash('sha256').update('the public sample key of quadmark').digest('base64'),
-  owner: 'quadmark sample',
-  params: { L1: 2, H1: 4, L2: 2, H2: 3, lambda: 1e-3, tau: 1e-3, k: 1, width: SIZE, height: SIZE },
+// Keys that everybody has: their secrets are hashes of sentences, so that each build makes the same files.
+const sampleKey = (sentence, owner) => parseKey({
+  quadmark: 1, scheme: 'robust', secret: createHash('sha256').update(sentence).digest('base64'), owner,
 });
+const key = await sampleKey('the public sample key of quadmark', 'quadmark sample');
+const wrongKey = await sampleKey('another public sample key of quadmark', 'somebody else');
 const logo = drawEmblem(SIZE);
 const { bytes: original } = await generate({ name: 'sculpture', vertices: 20000, format: 'glb' });
 const { bytes: marked } = await embed(original, { key, image: logo });
 
-// Four fifths cut off, turned, sheared, in another order, and roughened: some pixels are lost, the verdict is not.
+// Half cut off, turned, sheared, in another order, and roughened: some pixels are wrong, the verdict is not.
 let damaged = marked;
 for (const step of [
-  { kind: 'noise', amount: 1e-6 }, { kind: 'crop', amount: 0.8 }, { kind: 'affine', variant: 'CB' }, { kind: 'reorder', seed: 1 },
+  { kind: 'noise', amount: 1.1e-4 }, { kind: 'crop', amount: 0.5 }, { kind: 'affine', variant: 'R' }, { kind: 'reorder', seed: 1 },
 ]) {
   damaged = (await attack(damaged, { ...step, format: 'glb' })).bytes;
 }
 
-for (const [name, model, expected] of [['marked', marked, 'match'], ['damaged', damaged, 'match'], ['unmarked', original, 'none']]) {
-  const { verdict } = await extract(model, { key });
-  if (verdict !== expected) throw new Error(`the sample ${name}.glb reads as "${verdict}", expected "${expected}"`);
+for (const [name, model, read, expected] of [
+  ['marked', marked, key, 'match'], ['damaged', damaged, key, 'match'], ['unmarked', original, key, 'none'], ['marked', marked, wrongKey, 'none'],
+]) {
+  const { verdict } = await extract(model, { key: read });
+  if (verdict !== expected) throw new Error(`the sample ${name}.glb reads as "${verdict}" with the key of ${read.owner}, expected "${expected}"`);
 }
 mkdirSync(folder, { recursive: true });
 const write = (name, content) => writeFileSync(new URL(name, folder), content);
@@ -40,4 +40,5 @@ write('marked.glb', marked);
 write('damaged.glb', damaged);
 write('unmarked.glb', original);
 write('key.json', `${JSON.stringify(key, null, 2)}\n`);
+write('wrong-key.json', `${JSON.stringify(wrongKey, null, 2)}\n`);
 write('logo.png', await encodeImage(logo));

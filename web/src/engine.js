@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The page's side of the worker: one check at a time, cancelled by ending the thread (a running search has no ears).
+// The page's side of a worker: one job at a time, cancelled by ending the thread (a running search has no ears).
+import { startWorker } from './platform/served.js';
 
-export class Detector {
+export class Engine {
   #worker = null;
   #reject = null;
 
   /**
-   * Checks a model; a check that still runs is cancelled first.
+   * Runs a job; one that still runs is cancelled first.
    * @param request     what worker/index.js takes
    * @param onProgress  ({ stage, done }) => void
    * @return what the worker answers; rejects with an AbortError when cancelled
    */
-  check(request, onProgress) {
+  run(request, onProgress = () => {}) {
     this.cancel();
-    const worker = (this.#worker ??= new Worker(new URL('./worker/index.js', import.meta.url), { type: 'module' }));
+    const worker = (this.#worker ??= startWorker());
     return new Promise((resolve, reject) => {
       this.#reject = reject;
       const finish = (answer) => {
@@ -22,7 +23,7 @@ export class Detector {
         resolve(answer);
       };
       const fail = (message) => {
-        this.#end();
+        this.end();
         finish({ type: 'problem', about: 'page', code: 'internal', message });
       };
       worker.onmessage = ({ data }) => (data.type === 'progress' ? onProgress(data) : finish(data));
@@ -32,19 +33,20 @@ export class Detector {
     });
   }
 
-  /** True while a check runs. */
+  /** True while a job runs. */
   get busy() {
     return this.#reject !== null;
   }
 
   cancel() {
     if (!this.busy) return;
-    this.#end();
+    this.end();
     this.#reject(new DOMException('cancelled', 'AbortError'));
     this.#reject = null;
   }
 
-  #end() {
+  /** Ends the thread, if there is one; the next job starts another. */
+  end() {
     if (!this.#worker) return;
     this.#worker.onmessage = this.#worker.onerror = this.#worker.onmessageerror = null;
     this.#worker.terminate();

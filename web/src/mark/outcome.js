@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// The right-hand side of the marking tab. Only writes to the document.
+import { $, announce, element, showFacts, showSentences, Urls } from '../dom.js';
+import { baseName, stemOf } from '../files/paths.js';
+import { markingRecord } from '../report/record.js';
+import { stageWords } from '../verify/outcome.js';
+import { ViewPanel } from '../view3d/panel.js';
+import { currentLanguage, hasText, scientific, t, tenthWords, wholeWords } from '../words/language.js';
+import { oneInSpoken } from '../words/odds.js';
+import { missingWords, problemWords } from '../words/problems.js';
+
+const PANELS = ['idle', 'working', 'problem', 'result'];
+const urls = new Urls();
+const view = new ViewPanel($('compare'));
+
+function show(panel, state = panel) {
+  for (const name of PANELS) $(`mark-${name}`).hidden = name !== panel;
+  $('mark-outcome').dataset.state = state;
+  $('mark-outcome').setAttribute('aria-busy', String(panel === 'working'));
+  if (panel !== 'result') view.close();
+}
+
+export function showIdle(text, { spoken = false } = {}) {
+  $('mark-idle-text').textContent = text;
+  if (spoken) announce(text);
+  show('idle');
+}
+
+export function showWorking(name) {
+  $('mark-working-name').textContent = name;
+  show('working');
+  showProgress({ stage: 'load', done: 0 });
+  announce(`${t('marking')} ${name}`);
+}
+
+export function showProgress({ stage, done }) {
+  $('mark-progress').value = done;
+  $('mark-progress').dataset.stage = stage;
+  $('mark-stage').textContent = `${stageWords(stage)} …`;
+}
+
+export function showProblem(answer, names) {
+  const missing = answer.type === 'missing';
+  const { title, text, hint } = missing ? missingWords(answer.uris, names.model) : problemWords(answer, names);
+  $('mark-problem-title').textContent = title;
+  $('mark-problem-text').textContent = text;
+  $('mark-problem-text').lang = missing ? currentLanguage() : 'en';
+  $('mark-problem-hint').textContent = hint;
+  announce([title, text, hint].join(' '));
+  show('problem', missing ? 'missing' : 'problem');
+}
+
+function factsOf({ report, millis, inputs, outputs }) {
+  const { distortion } = report;
+  const share = (value) => scientific(value);
+  return [
+    ...(hasText(`class_${report.capacityClass}`) ? [[t('factClass'), t(`class_${report.capacityClass}`)]] : []),
+    [t('factRepeats'), tenthWords(report.repeats)],
+    [t('factRms'), share(distortion.rmsRel)],
+    [t('factMax'), share(distortion.maxRel)],
+    [t('factHausdorff'), share(distortion.hausdorffRel)],
+    [t('factSnr'), t('decibels', tenthWords(distortion.snrDb))],
+    [t('factNormals'), t('degrees', tenthWords(distortion.meanNormalDeg))],
+    [t('factBytes'), wholeWords(report.bytesChanged)],
+    [t('factTime'), `${(millis / 1000).toFixed(2)} s`],
+    [t('factHash', inputs.model.name), inputs.model.sha256],
+    [t('factHash', `${outputs.model.name} (${t('sampleMarked').toLowerCase()})`), outputs.model.sha256],
+  ];
+}
+
+function showSaves(result, { stem, extension }, request) {
+  const link = (text, content, type, name) => element('a', { class: 'button', href: urls.of(content, type), download: name, 'data-t': text }, t(text));
+  const model = link('saveModel', result.bytes, 'application/octet-stream', `${stem}.marked${extension}`);
+  model.classList.add('strong');
+  model.id = 'save-model';
+  const key = link('saveKey', result.key, 'application/json', `${stem}.key.json`);
+  key.id = 'save-key';
+  const record = `${JSON.stringify(markingRecord(result, request, new Date()), null, 2)}\n`;
+  const report = link('saveRecord', record, 'application/json', `${stem}.marking.json`);
+  report.id = 'save-record';
+  const buffers = result.resources.map(({ name, bytes }) => element('a', { class: 'button', href: urls.of(bytes, 'application/octet-stream'), download: name }, name));
+  $('mark-saves').replaceChildren(model, ...buffers, key, report);
+}
+
+/** @param request  what was asked of the worker */
+export function showResult(result, request, { spoken = true } = {}) {
+  urls.revoke();
+  const { model, parts } = request;
+  const name = baseName(model.path);
+  const { verified } = result.report;
+  $('mark-proof').textContent = verified?.falsePositive === undefined ? name : t('markProof', oneInSpoken(verified.falsePositive));
+  showSaves(result, { stem: stemOf(name), extension: /\.[^.]*$/.exec(name)?.[0] ?? '' }, request);
+  showFacts($('mark-facts'), factsOf(result));
+  showSentences($('mark-warnings'), result.report.warnings);
+  $('mark-warnings').hidden = result.report.warnings.length === 0;
+  show('result', 'done');
+  const changed = new Map(result.resources.map((file) => [file.name, file.bytes]));
+  const after = {
+    model: { path: model.path, file: new File([result.bytes], name) },
+    parts: parts.map((part) => (changed.has(baseName(part.path)) ? { path: part.path, file: new File([changed.get(baseName(part.path))], part.file.name) } : part)),
+  };
+  view.offer({ kind: 'compare', model, parts, after });
+  if (!spoken) return;
+  $('mark-verdict').focus({ preventScroll: true });
+  announce(`${t('markDone')} ${$('mark-proof').textContent} ${t('keepKey')}`);
+}

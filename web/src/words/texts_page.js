@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Texts of the page itself: head, tabs, files, formats of numbers.
+
+export const PAGE_TEXTS = {
+  pageTitle: ['quadmark: is this model marked?', 'quadmark: Ist dieses Modell markiert?'],
+  skip: ['Skip to the content', 'Zum Inhalt springen'],
+  noScript: ['This page needs JavaScript: it does all its work on this computer.', 'Diese Seite braucht JavaScript: sie arbeitet ganz auf diesem Computer.'],
+  tabs: ['What to do', 'Was zu tun ist'],
+  tabVerify: ['Verify', 'Prüfen'],
+  tabMark: ['Mark', 'Markieren'],
+  otherLanguage: ['Deutsch', 'English'],
+  privacy: ['It all happens on this computer: nothing is uploaded.', 'Alles geschieht auf diesem Computer: nichts wird hochgeladen.'],
+  offlineReady: ['Works offline', 'Läuft auch offline'],
+  offlineCopy: ['Keep this page as one file', 'Diese Seite als eine Datei behalten'],
+  caveat: [
+    'A match says that the model carries the mark of this key. It does not say who marked it first, or who owns it. Keep the key secret: whoever has it can read the mark, and forge it.',
+    'Ein Treffer sagt, dass das Modell die Markierung dieses Schlüssels trägt. Er sagt nicht, wer zuerst markiert hat oder wem es gehört. Halten Sie den Schlüssel geheim: Wer ihn hat, kann die Markierung lesen und fälschen.',
+  ],
+  choose: ['Choose', 'Wählen'],
+  folder: ['Folder', 'Ordner'],
+  remove: ['Remove', 'Entfernen'],
+  optional: ['optional', 'freiwillig'],
+  cancel: ['Cancel', 'Abbrechen'],
+  veil: ['Let go to use these files', 'Loslassen, um diese Dateien zu nehmen'],
+  bytes: [(n) => (n === 1 ? '1 byte' : `${n} bytes`), (n) => (n === 1 ? '1 Byte' : `${n} Byte`)],
+  moreFiles: [(n) => ` + ${n} more`, (n) => ` + ${n} weitere`],
+  seconds: [(s) => `${s} s`, (s) => `${s} s`],
+
+  oneIn: [(n) => `1 in ${n}`, (n) => `1 zu ${n}`],
+  million: [({ text }) => `${text} million`, ({ text, one }) => `${text} Million${one ? '' : 'en'}`],
+  billion: [({ text }) => `${text} billion`, ({ text, one }) => `${text} Milliarde${one ? '' : 'n'}`],
+  trillion: [({ text }) => `${text} trillion`, ({ text, one }) => `${text} Billion${one ? '' : 'en'}`],
+  toThePower: [({ text, exponent }) => `${text} to the power of ${exponent}`, ({ text, exponent }) => `${text} hoch ${exponent}`],
+  noRarity: ['No better than chance', 'Nicht besser als Zufall'],
+
+  noFiles: ['There was no file in what you dropped.', 'Im Abgelegten war keine Datei.'],
+  notAFile: ['That was no file. Drop a model (GLB, glTF, PLY, DRC) and a key file.', 'Das war keine Datei. Legen Sie ein Modell (GLB, glTF, PLY, DRC) und eine Schlüsseldatei ab.'],
+  folderFailed: [(why) => `The dropped folder could not be read: ${why}.`, (why) => `Der abgelegte Ordner konnte nicht gelesen werden: ${why}.`],
+  couldNotOpen: [({ path, why }) => `${path} could not be opened (${why}).`, ({ path, why }) => `${path} konnte nicht geöffnet werden (${why}).`],
+  archiveFailed: [({ path, why }) => `${path} could not be unpacked: ${why}.`, ({ path, why }) => `${path} konnte nicht entpackt werden: ${why}.`],
+  archiveEmpty: [(path) => `${path} holds no files.`, (path) => `${path} enthält keine Dateien.`],
+  tooManyFiles: [(n) => `more than ${n} files`, (n) => `mehr als ${n} Dateien`],
+  severalAtOnce: [
+    ({ n, what, names }) => `${n} ${what} at once (${names}): give one at a time.`,
+    ({ n, what, names }) => `${n} ${what} auf einmal (${names}): bitte nur je eine.`,
+  ],
+  keyFiles: ['key files', 'Schlüsseldateien'],
+  pictureFiles: ['PNG pictures', 'PNG-Bilder'],
+  modelFiles: ['models', 'Modelle'],
+  leftAside: [
+    (path) => `${path} was left aside: it is neither a model (GLB, glTF, PLY, DRC), nor a key file, nor a PNG picture.`,
+    (path) => `${path} blieb liegen: weder ein Modell (GLB, glTF, PLY, DRC) noch eine Schlüsseldatei noch ein PNG-Bild.`,
+  ],
+  sampleFailed: [(why) => `The sample could not be loaded (${why}).`, (why) => `Das Beispiel konnte nicht geladen werden (${why}).`],
+};
