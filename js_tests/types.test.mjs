@@ -9,6 +9,7 @@ import * as lab from 'quadmark/lab';
 import * as quadmark from 'quadmark';
 import * as gltfTransform from 'quadmark/gltf-transform';
 import * as recipients from 'quadmark/recipients';
+import * as vitePlugin from 'quadmark/vite';
 import { repository } from './support/files.mjs';
 
 /** Names of the values (not types) that a .d.ts exports. */
@@ -40,6 +41,7 @@ test('the types declare exactly what the modules export', () => {
   assert.deepEqual(declaredValues(join(repository, 'node/src/lab.d.ts')), Object.keys(lab).sort());
   assert.deepEqual(declaredValues(join(repository, 'node/src/recipient_files.d.ts')), Object.keys(recipients).sort());
   assert.deepEqual(declaredValues(join(repository, 'node/src/gltf_transform/index.d.ts')), Object.keys(gltfTransform).sort());
+  assert.deepEqual(declaredValues(join(repository, 'node/src/vite/index.d.ts')), Object.keys(vitePlugin).sort());
 });
 
 test('the types know every error code', () => {
