@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The hand-written types: what they declare is what the modules export, and the documented use compiles.
 import assert from 'node:assert/strict';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import ts from 'typescript';
@@ -10,7 +10,7 @@ import * as quadmark from 'quadmark';
 import * as gltfTransform from 'quadmark/gltf-transform';
 import * as recipients from 'quadmark/recipients';
 import * as vitePlugin from 'quadmark/vite';
-import { repository } from './support/files.mjs';
+import { repository, run, temporaryFolder } from './support/files.mjs';
 
 /** Names of the values (not types) that a .d.ts exports. */
 function declaredValues(file) {
@@ -102,4 +102,15 @@ test('misuse does not compile', (t) => {
     `import { embed } from 'quadmark'; await embed(new Uint8Array(1), { key: '', id: '1', options: { strength: 'weak' } });`,
   ];
   for (const source of wrong) assert.notEqual(compile(t, source).length, 0, source);
+});
+
+test('the reference is made from the types, and nothing in it is undocumented', { timeout: 120000 }, async (t) => {
+  const out = temporaryFolder(t);
+  const made = await run(process.execPath, [join(repository, 'node_modules/.bin/typedoc'), '--out', out], { cwd: join(repository, 'node') });
+  assert.equal(made.status, 0, `${made.stdout}${made.stderr}`);
+  const modules = readFileSync(join(out, 'modules.html'), 'utf8');
+  const { exports } = JSON.parse(readFileSync(join(repository, 'node/package.json'), 'utf8'));
+  for (const [entry, { types }] of Object.entries(exports)) {
+    if (types !== undefined) assert.ok(modules.includes(`>${entry.replace('.', 'quadmark')}<`), `${entry} is in the reference`);
+  }
 });

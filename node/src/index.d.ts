@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Types of the package `quadmark`. Plain data in, plain data out; importing instantiates nothing.
+/**
+ * Marks models, reads marks, makes keys. Plain data in, plain data out; importing instantiates nothing.
+ *
+ * @module quadmark
+ */
 
 /** Why a call failed; see the table in the README. */
 export type ErrorCode =
@@ -65,11 +69,13 @@ export interface RobustKey {
   owner: string;
 }
 
+/** Content of a key file. */
 export type Key = PaperKey | RobustKey;
 
 /** A key, or its file as text or bytes. */
 export type KeyInput = Key | string | Bytes;
 
+/** How far a long call is. */
 export interface Progress {
   /** "read", "search", "write", "verify" or "report". */
   stage: string;
@@ -77,6 +83,7 @@ export interface Progress {
   done: number;
 }
 
+/** What long calls take. */
 export interface CallOptions {
   /** Called synchronously between steps. An exception thrown here cancels the call and is passed on. */
   onProgress?: (progress: Progress) => void;
@@ -107,6 +114,7 @@ export interface Report {
   [name: string]: unknown;
 }
 
+/** What embed() needs: a key and exactly one payload. */
 export interface EmbedRequest {
   key: KeyInput;
   /** The picture to embed: of the key's size, or with scheme `robust` up to 128 x 128. Exactly one of `image`, `id`, `text`. */
@@ -119,6 +127,7 @@ export interface EmbedRequest {
   options?: EmbedOptions;
 }
 
+/** A marked model. */
 export interface EmbedResult {
   /** The marked file: the input with other position components (and glTF min / max), nothing else. */
   bytes: Uint8Array;
@@ -130,6 +139,7 @@ export interface EmbedResult {
 /** Marks a model. Equal arguments give equal bytes on every platform. */
 export function embed(model: Bytes, request: EmbedRequest): Promise<EmbedResult>;
 
+/** What extract() needs: a key, and perhaps what to look for. */
 export interface ExtractRequest {
   key: KeyInput;
   /** Compare with this image and let its agreement count for the verdict. */
@@ -153,6 +163,7 @@ export interface ExtractedImage extends BitImage {
   confidencePng: Uint8Array;
 }
 
+/** What was read, and what it is worth. */
 export interface ExtractResult {
   /** "none" (no mark of this key) is a result, not an error. */
   verdict: 'match' | 'none' | 'inconclusive';
@@ -191,6 +202,7 @@ export interface Candidate {
   salt?: string;
 }
 
+/** What trace() needs: a key and everybody who has a copy. */
 export interface TraceRequest {
   key: KeyInput;
   /** Everybody whose copy it could be, as a registry lists them. Equal ones count once. */
@@ -202,6 +214,7 @@ export interface TraceRequest {
   };
 }
 
+/** A candidate and what speaks for it. */
 export interface TracedCandidate {
   recipient: string;
   id: string | null;
@@ -212,6 +225,7 @@ export interface TracedCandidate {
   corrected: number;
 }
 
+/** Whose copy a model is. */
 export interface TraceResult {
   /** "match": `recipient` is named. "none": no mark, or one of somebody else (`id` says which). */
   verdict: 'match' | 'none' | 'inconclusive';
@@ -268,6 +282,7 @@ export interface PaperKeyRequest {
   scrambleOrder?: boolean;
 }
 
+/** What createKey() takes. */
 export type KeyRequest = PaperKeyRequest | RobustKeyRequest;
 
 /** Makes a key around 32 random bytes of the platform's generator. */

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Types of `quadmark/lab`: attacks and generated models, for tests and demonstrations. A module of its own, so that
-// the product never carries it.
+/**
+ * Attacks and generated models, for tests and demonstrations: a module of its own, so that the product never carries it.
+ *
+ * @module quadmark/lab
+ */
 import type { Bytes, Resources, WasmSource } from './index.js';
 
+/** How large a mesh is. */
 export interface Sizes {
   vertices: number;
   faces: number;
 }
 
+/** What to do to a model. */
 export interface AttackRequest {
   /** One of attackKinds(). */
   kind: string;
@@ -24,6 +29,7 @@ export interface AttackRequest {
 /** Damages a model the way pipelines and adversaries do. */
 export function attack(model: Bytes, request: AttackRequest): Promise<{ bytes: Uint8Array; before: Sizes; after: Sizes }>;
 
+/** Which model to make. */
 export interface GenerateRequest {
   /** "sculpture", "part", "icosphere", ... */
   name: string;
@@ -39,5 +45,7 @@ export function generate(request: GenerateRequest): Promise<{ bytes: Uint8Array 
 /** All kinds of attack, with a line on each. */
 export function attackKinds(): Promise<{ kind: string; description: string }[]>;
 
+/** Optional: loads the laboratory's module ahead of the first call, or from another place. */
 export function load(request?: { wasm?: WasmSource | Promise<WasmSource> }): Promise<void>;
+/** Frees its memory. */
 export function unload(): void;

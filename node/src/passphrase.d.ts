@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Types of `quadmark/passphrase`.
+/**
+ * Keys from passphrases.
+ *
+ * @module quadmark/passphrase
+ */
 import type { RobustKey } from './index.js';
 
+/** Parameters of scrypt, RFC 7914; dkLen: bytes wanted. */
 export interface ScryptParameters { N: number; r: number; p: number; dkLen: number; }
 
+/** The parameters that keys from passphrases are made with. */
 export const SCRYPT: Readonly<ScryptParameters>;
 /** Characters a passphrase needs at least. */
 export const LEAST_PASSPHRASE: 12;

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Types of `quadmark/recipients`: lists of recipients and registries of marked copies, as text.
+/**
+ * Lists of recipients and registries of marked copies, as text.
+ *
+ * @module quadmark/recipients
+ */
 import type { BitImage } from './index.js';
 
+/** One row of a list of recipients. */
 export interface ListedRecipient {
   /** Trimmed, NFC, 1 to 256 bytes; in a list only once. */
   recipient: string;

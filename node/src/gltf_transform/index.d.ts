@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Types of `quadmark/gltf-transform`.
+/**
+ * A transform that marks glTF-Transform's documents.
+ *
+ * @module quadmark/gltf-transform
+ */
 import type { Transform } from '@gltf-transform/core';
 import type { EmbedOptions, ImageInput, KeyInput, Report } from '../index.js';
 

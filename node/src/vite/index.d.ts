@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Types of `quadmark/vite`.
+/**
+ * A plugin that marks the models of a Vite build.
+ *
+ * @module quadmark/vite
+ */
 import type { Plugin } from 'vite';
 import type { ImageInput, KeyInput } from '../index.js';
 
+/** Options of the plugin. */
 export interface QuadmarkViteOptions {
   /** Path of the key file, relative to the project's root; default: the environment's QUADMARK_KEY_FILE. */
   keyFile?: string;
@@ -10,6 +15,7 @@ export interface QuadmarkViteOptions {
   key?: KeyInput;
   /** What to embed: exactly one of these three. A function gets the model's path relative to the root, with slashes. */
   id?: string | bigint | ((file: string) => string | bigint);
+  /** 1 to 64 bytes of UTF-8. */
   text?: string | ((file: string) => string);
   /** A picture: the path of a PNG, relative to the root, or its bytes. */
   image?: string | Uint8Array;
