@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+// webpack
+export default { mode: 'production', entry: './src/main.js', performance: { hints: false } };
