@@ -110,6 +110,15 @@ test('a .gltf in the public folder is marked with its buffer; an imported one is
   assert.match((await shared.build()).said, /two models share this buffer/);
 });
 
+test('a model that only HTML refers to is marked too, with a warning', async (t) => {
+  const { built, assets, idOf } = project(t, 'id: "abc"', {
+    'index.html': '<!doctype html><title>x</title><link rel="preload" as="fetch" href="./src/a.glb"><script type="module" src="/src/main.js"></script>',
+    'src/main.js': '', 'src/a.glb': glb,
+  });
+  assert.match(await built(), /src\/a\.glb: marked as assets\/a-[\w-]+\.glb, a name made of the unmarked file/);
+  assert.equal(await idOf(assets()[0]), '0000000000000abc');
+});
+
 test('include, exclude, and what cannot be marked', async (t) => {
   const files = { 'src/main.js': 'import a from "./a.glb?url"; import s from "./small.glb?url"; console.log(a, s);', 'src/a.glb': glb, 'src/small.glb': coarse, 'public/raw.glb': glb };
   const strict = await project(t, 'id: "abc"', files).build();

@@ -116,6 +116,19 @@ export function quadmark(given) {
       return `export { default } from ${JSON.stringify(`${target.startsWith('.') ? target : `./${target}`}${query || '?url'}`)};`;
     },
 
+    /** What HTML and CSS refer to is emitted past load(); its name was made of the unmarked bytes and stays. */
+    async generateBundle(_, bundle) {
+      for (const asset of Object.values(bundle)) {
+        if (asset.type !== 'asset') continue;
+        const file = (asset.originalFileNames ?? []).map((name) => resolve(config.root, name)).find((name) => isModel(name) && existsSync(name));
+        if (file === undefined || !readFileSync(file).equals(Buffer.from(asset.source))) continue;
+        const result = await marked(file);
+        if (result === null) continue;
+        asset.source = await readFile(result.path);
+        log(file, `marked as ${asset.fileName}, a name made of the unmarked file: refer to it from a module`, 'warn');
+      }
+    },
+
     /** Vite has copied the public folder by now; these names have no hash, so the files are replaced where they are. */
     writeBundle: {
       order: 'post',
