@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// For everyone: no violation of axe's rules in any state, both languages, focus and live regions, reduced motion, phones.
+import assert from 'node:assert/strict';
+import { createRequire } from 'node:module';
+import { readFileSync } from 'node:fs';
+import { after, test } from 'node:test';
+import { assertQuiet, drop, markedSculpture, onDisk, openPage, screenshot, startBrowser, waitFor, waitForView } from './page_helpers.mjs';
+import { logo, logoPng } from './support/marks.mjs';
+
+const browser = await startBrowser(after);
+const { model, marked, key } = await markedSculpture();
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+/** Fails unless axe-core finds nothing. Its script is put in past the page's policy, by the debugger. */
+async function assertAccessible(page, state) {
+  const session = await page.context().newCDPSession(page);
+  await session.send('Runtime.evaluate', { expression: axe });
+  await session.detach();
+  const found = await page.evaluate(async () => (await globalThis.axe.run(document)).violations
+    .map(({ id, help, nodes }) => `${id}: ${help}: ${nodes.map(({ html }) => html.slice(0, 120)).join(' | ')}`));
+  assert.deepEqual(found, [], state);
+}
+
+/** Opens the page as somebody who never chose a language. */
+async function openFresh(t) {
+  const opened = await openPage(t, browser);
+  await opened.page.evaluate(() => localStorage.clear());
+  await opened.page.reload();
+  return opened;
+}
+
+for (const [language, scheme] of [['en', 'light'], ['de', 'dark']]) {
+  test(`axe-core finds nothing in any state (${language}, ${scheme})`, async (t) => {
+    const { page, seen } = await openFresh(t);
+    await page.emulateMedia({ colorScheme: scheme });
+    if (language === 'de') await page.locator('#language').click();
+    const check = async (name) => {
+      await assertAccessible(page, name);
+      await screenshot(page, `60-${language}-${name}`);
+    };
+    await check('idle');
+    await page.locator('[data-sample="damaged"]').click();
+    await waitFor(page, 'match');
+    await waitForView(page);
+    await page.locator('#numbers summary').click();
+    await check('match');
+    await page.locator('[data-sample="unmarked"]').click();
+    await waitFor(page, 'none');
+    await page.locator('#passphrase summary').click();
+    await check('none');
+    await drop(page, onDisk(t, { 'a.glb': marked, 'b.glb': model, 'c.glb': marked.subarray(0, 999), 'key.json': key, 'x.xyz': '?' }).paths);
+    await page.waitForFunction(() => /^3 (of|von) 3 /.test(document.getElementById('queue-count').textContent), null, { timeout: 60000 });
+    await check('queue');
+    await page.locator('#queue-rows button').nth(2).click();
+    await waitFor(page, 'problem');
+    await check('problem');
+    await page.locator('#tab-mark').click();
+    await drop(page, onDisk(t, { 'a.glb': model, 'logo.png': logoPng(logo(16)) }).paths);
+    await page.waitForFunction(() => document.getElementById('mark-button').disabled === false);
+    await page.locator('#key-kinds label').nth(2).click();
+    await check('mark-ready');
+    await page.locator('#key-kinds label').nth(0).click();
+    await page.locator('#logo-size').fill('12');
+    await page.locator('#mark-button').click();
+    await page.waitForFunction(() => document.getElementById('mark-outcome').dataset.state === 'done', null, { timeout: 60000 });
+    await waitForView(page, 'compare');
+    await check('mark-done');
+    assertQuiet(seen, browser.url);
+  });
+}
+
+test('the language is kept, and what is shown follows it', async (t) => {
+  const { page, seen } = await openFresh(t);
+  await page.locator('[data-sample="marked"]').click();
+  await waitFor(page, 'match');
+  await page.locator('#language').click();
+  assert.equal(await page.locator('html').getAttribute('lang'), 'de');
+  assert.equal(await page.locator('#verdict-title').innerText(), 'Dieses Modell trägt die Markierung dieses Schlüssels.');
+  assert.match(await page.locator('#odds [aria-hidden]').innerText(), /^1 zu 10/);
+  assert.equal(await page.title(), 'quadmark: Ist dieses Modell markiert?');
+  const left = await page.evaluate(() => document.body.innerText.match(/\b(the|model|key|nothing|choose|file)\b/gi));
+  assert.deepEqual(left?.filter((word) => !/^key$/i.test(word)) ?? [], [], 'no English is left');
+  await page.reload();
+  assert.equal(await page.locator('#check').innerText(), 'Modell prüfen');
+  await page.locator('#language').click();
+  assert.equal(await page.locator('#check').innerText(), 'Check the model');
+  assertQuiet(seen, browser.url);
+});
+
+test('who wants less motion gets none', async (t) => {
+  const { page } = await openPage(t, browser);
+  const animation = () => page.evaluate(() => getComputedStyle(document.getElementById('progress')).animationName);
+  await page.evaluate(() => { document.getElementById('progress').dataset.stage = 'search'; });
+  assert.equal(await animation(), 'breathe');
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  assert.equal(await animation(), 'none');
+});
+
+test('tabs are tabs: arrows move between them, and links lead to them', async (t) => {
+  const { page } = await openPage(t, browser, { path: '#mark' });
+  assert.equal(await page.locator('#mark').isVisible(), true);
+  assert.equal(await page.locator('#tab-mark').getAttribute('aria-selected'), 'true');
+  await page.locator('#tab-mark').focus();
+  await page.keyboard.press('ArrowLeft');
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'tab-verify');
+  assert.equal(await page.locator('#verify').isVisible(), true);
+});

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// The 3D view: it draws, turns and colours; its readers number vertices as the core does.
+import assert from 'node:assert/strict';
+import { after, test } from 'node:test';
+import { createKey, embed, extract, inspect } from 'quadmark';
+import { attack, generate } from 'quadmark/lab';
+import { NotDrawable } from '../web/src/view3d/geometry/not_drawable.js';
+import { readGeometry } from '../web/src/view3d/geometry/index.js';
+import { displacementColours, evidenceColours } from '../web/src/view3d/heat.js';
+import { assertQuiet, drop, onDisk, openPage, screenshot, startBrowser, waitFor, waitForView } from './page_helpers.mjs';
+import { compressGlb } from './support/draco.mjs';
+import { allRealModels, readModelFiles } from './support/files.mjs';
+import { logo } from './support/marks.mjs';
+
+const browser = await startBrowser(after);
+const key = await createKey({ owner: 'the view' });
+
+/** { covered, colours }: share of the stage that shows the model, and mean colour of it. */
+function look(page, id = 'view') {
+  return page.evaluate(async (name) => {
+    const picture = document.querySelector(`#${name} .view-print`);
+    await picture.decode();
+    const bitmap = await createImageBitmap(picture);
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+    canvas.drawImage(bitmap, 0, 0);
+    const { data } = canvas.getImageData(0, 0, bitmap.width, bitmap.height);
+    let covered = 0, blue = 0, hash = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3] < 128) continue;
+      ++covered;
+      if (data[i + 2] > data[i] + 40) ++blue;
+      hash = (hash * 31 + data[i] + (i >> 2)) >>> 0;
+    }
+    return { covered: covered / (data.length / 4), blue: blue / covered, hash };
+  }, id);
+}
+
+/** Does something to the view and waits for the next picture of it. */
+async function changed(page, act) {
+  await page.evaluate(() => { document.querySelector('#view .view-print').dataset.old = document.querySelector('#view .view-print').src; });
+  await act();
+  await page.waitForFunction(() => {
+    const picture = document.querySelector('#view .view-print');
+    return picture.src !== picture.dataset.old && picture.complete;
+  });
+  await page.waitForTimeout(700);  // a later picture of the same change
+  return look(page);
+}
+
+test('the model is drawn with its evidence, and turned by mouse, wheel, touch and keys', async (t) => {
+  const { page, seen } = await openPage(t, browser);
+  assert.equal(seen.requests.some((url) => /scene-[^/]*\.js$/.test(url)), false, 'three.js waits until it is needed');
+  await page.locator('[data-sample="marked"]').click();
+  await waitFor(page, 'match');
+  assert.equal(await waitForView(page), 'ready');
+  await page.locator('.view-print').waitFor({ state: 'attached' });
+  const first = await look(page);
+  assert.ok(first.covered > 0.1 && first.blue > 0.1, JSON.stringify(first));
+  await screenshot(page, '30-view-evidence');
+  const canvas = page.locator('#view canvas');
+  const box = await canvas.boundingBox();
+  const middle = [box.x + box.width / 2, box.y + box.height / 2];
+  const turned = await changed(page, async () => {
+    await page.mouse.move(...middle);
+    await page.mouse.down();
+    await page.mouse.move(middle[0] + 120, middle[1] + 10, { steps: 4 });
+    await page.mouse.up();
+  });
+  assert.notEqual(turned.hash, first.hash);
+  const nearer = await changed(page, async () => {
+    await canvas.focus();
+    await page.keyboard.press('+');
+    await page.keyboard.press('ArrowUp');
+  });
+  assert.ok(nearer.covered > turned.covered * 1.1, 'nearer');
+  const wheel = await changed(page, () => page.mouse.wheel(0, 400));
+  assert.ok(wheel.covered < nearer.covered, 'the wheel zooms out');
+  const touched = await changed(page, async () => {
+    const session = await page.context().newCDPSession(page);
+    const finger = (dx) => [{ x: middle[0] - 40 - dx, y: middle[1], id: 1 }, { x: middle[0] + 40 + dx, y: middle[1], id: 2 }];
+    await session.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: finger(0) });
+    for (let i = 1; i <= 6; ++i) await session.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: finger(10 * i) });
+    await session.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+  });
+  assert.ok(touched.covered > wheel.covered, 'two fingers zoom in');
+  const again = await changed(page, () => canvas.press('0'));
+  assert.ok(Math.abs(again.covered - first.covered) < 0.002 && Math.abs(again.blue - first.blue) < 0.01, 'back where it began');
+  const plain = await changed(page, () => page.locator('#view label', { hasText: 'Plain' }).click());
+  assert.equal(plain.blue, 0);
+  assert.equal(await page.locator('#view .legend').isVisible(), false);
+  await screenshot(page, '31-view-plain');
+  assertQuiet(seen, browser.url);
+});
+
+test('each node has its share of the evidence', async (t) => {
+  const { page } = await openPage(t, browser);
+  await page.locator('[data-sample="damaged"]').click();
+  await waitFor(page, 'match');
+  assert.deepEqual(await page.locator('#node-rows tr td:nth-child(2)').allInnerTexts().then((texts) => texts.map((text) => text.trim())), ['100 %']);
+  await page.locator('[data-sample="unmarked"]').click();
+  await waitFor(page, 'none');
+  assert.equal(await page.locator('#nodes').isVisible(), false);
+  assert.equal(await waitForView(page), 'ready');
+  assert.match(await page.locator('#view').innerText(), /There is no evidence to show/);
+});
+
+test('what the view cannot draw is said, and the verdict stays', async (t) => {
+  const { page, seen } = await openPage(t, browser);
+  const { bytes } = await generate({ name: 'sculpture', vertices: 8000, format: 'glb' });
+  const marked = await embed(bytes, { key, id: '1' });
+  await drop(page, onDisk(t, { 'packed.glb': compressGlb(Buffer.from(marked.bytes), { bits: 16 }), 'key.json': key }).paths);
+  await waitFor(page, 'match', 'none', 'inconclusive');
+  assert.equal(await waitForView(page), 'failed');
+  assert.match(await page.locator('#view').innerText(), /^The model cannot be drawn here: the view does not decompress Draco\. The verdict does not depend on it\.$/);
+  assertQuiet(seen, browser.url);
+});
+
+test('vertices are numbered as the evidence is, for every model that can be drawn', async (t) => {
+  let drawn = 0;
+  for (const { name, path } of allRealModels(t)) {
+    const { model, resources } = await readModelFiles(path);
+    const report = await inspect(model, { resources });
+    let geometry;
+    try {
+      geometry = await readGeometry(new Uint8Array(model), async (uri) => new Uint8Array(resources[uri]));
+    } catch (error) {
+      assert.ok(error instanceof NotDrawable, `${name}: ${error.stack}`);
+      assert.match(error.message, /^noDraco$/, `${name}: ${error.cause?.stack}`);
+      continue;
+    }
+    if (geometry.vertexCount !== 0) assert.equal(geometry.vertexCount, report.vertices, name);
+    else t.diagnostic(`${name}: drawn plain`);
+    const corners = geometry.pieces.reduce((sum, { triangles, positions }) => {
+      assert.ok(triangles.every((corner) => corner < positions.length / 3), `${name}: corners are vertices`);
+      return sum + triangles.length;
+    }, 0);
+    assert.ok(corners > 0, name);
+    ++drawn;
+  }
+  t.diagnostic(`${drawn} real models`);
+});
+
+test('evidence lies where the mark is read', async () => {
+  const { bytes } = await generate({ name: 'sculpture', vertices: 20000, format: 'ply' });
+  const marked = await embed(bytes, { key, image: logo(16) });
+  const reordered = await attack(marked.bytes, { kind: 'reorder', seed: 3, format: 'glb' });
+  for (const file of [marked.bytes, reordered.bytes]) {
+    const { evidence, report } = await extract(file, { key });
+    const { pieces: [piece], vertexCount } = await readGeometry(file, null);
+    assert.equal(vertexCount, evidence.length);
+    assert.equal(evidence.filter((value) => value !== 0).length, report.cells);
+    const colours = evidenceColours(evidence, piece.triangles);
+    const voted = evidence.findIndex((value) => value > 0.5);
+    assert.ok(colours[3 * voted + 2] > colours[3 * voted] + 60, 'blue where the vote is for the mark');
+  }
+  assert.deepEqual([...displacementColours(Float32Array.of(0, 1), 1)], [198, 204, 216, 176, 24, 84]);
+});
+
+test('PLY of every encoding, strips and polygons', async () => {
+  const header = (format, rest) => `ply\nformat ${format} 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n${rest}end_header\n`;
+  const ascii = header('ascii', 'element face 1\nproperty list uchar int vertex_indices\n') + '0 0 0 9\n1 0 0 9\n1 1 0 9\n0 1 0 9\n4 0 1 2 3\n';
+  const strip = header('ascii', 'element tristrips 1\nproperty list int int vertex_indices\n') + '0 0 0 9\n1 0 0 9\n1 1 0 9\n0 1 0 9\n8 0 1 2 3 -1 0 1 3\n';
+  const read = async (text) => (await readGeometry(new TextEncoder().encode(text), null)).pieces[0];
+  assert.deepEqual([...(await read(ascii)).triangles], [0, 1, 2, 0, 2, 3]);
+  assert.deepEqual([...(await read(strip)).triangles], [0, 1, 2, 2, 1, 3, 0, 1, 3]);
+  assert.deepEqual([...(await read(ascii)).positions].slice(3, 9), [1, 0, 0, 1, 1, 0]);
+});
