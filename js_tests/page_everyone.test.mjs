@@ -4,11 +4,13 @@ import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
 import { readFileSync } from 'node:fs';
 import { after, test } from 'node:test';
+import { generate } from 'quadmark/lab';
 import { assertQuiet, drop, markedSculpture, onDisk, openPage, screenshot, startBrowser, waitFor, waitForView } from './page_helpers.mjs';
 import { logo, logoPng } from './support/marks.mjs';
 
 const browser = await startBrowser(after);
 const { model, marked, key } = await markedSculpture();
+const roomy = (await generate({ name: 'sculpture', vertices: 20000, format: 'glb' })).bytes;
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
 /** Fails unless axe-core finds nothing. Its script is put in past the page's policy, by the debugger. */
@@ -55,7 +57,7 @@ for (const [language, scheme] of [['en', 'light'], ['de', 'dark']]) {
     await waitFor(page, 'problem');
     await check('problem');
     await page.locator('#tab-mark').click();
-    await drop(page, onDisk(t, { 'a.glb': model, 'logo.png': logoPng(logo(16)) }).paths);
+    await drop(page, onDisk(t, { 'a.glb': roomy, 'logo.png': logoPng(logo(16)) }).paths);
     await page.waitForFunction(() => document.getElementById('mark-button').disabled === false);
     await page.locator('#key-kinds label').nth(2).click();
     await check('mark-ready');

@@ -15,6 +15,7 @@ function speak(language) {
   setLanguage(language);
   document.documentElement.lang = currentLanguage();
   fillTexts();
+  $('announcer').textContent = '';  // said in the other language
   $('language').lang = currentLanguage() === 'de' ? 'en' : 'de';
   document.title = t('pageTitle');
   for (const tab of Object.values(TABS)) tab.refresh();

@@ -13,14 +13,13 @@ export const MARK_TEXTS = {
   markModelHint: ['Drop a GLB, PLY or glTF with its .bin files', 'GLB, PLY oder glTF mit seinen .bin-Dateien ablegen'],
   measuring: ['Measuring the room in it …', 'Der Platz darin wird gemessen …'],
   room: [
-    ({ vertices, places, side }) => (side > 0
-      ? `${vertices} vertices, ${places} places for the mark: pictures up to about ${side} × ${side} pixels fit.`
-      : `${vertices} vertices, ${places} places for the mark: likely too few, even for an ID.`),
-    ({ vertices, places, side }) => (side > 0
-      ? `${vertices} Eckpunkte, ${places} Stellen für die Markierung: Bilder bis etwa ${side} × ${side} Pixel passen.`
-      : `${vertices} Eckpunkte, ${places} Stellen für die Markierung: wohl zu wenige, selbst für eine ID.`),
+    ({ vertices, places }) => `${vertices} vertices, ${places} places for the mark:`,
+    ({ vertices, places }) => `${vertices} Eckpunkte, ${places} Stellen für die Markierung:`,
   ],
-  roomTight: ['This picture is larger than what fits well: embedding may refuse it.', 'Dieses Bild ist größer, als gut passt: das Einbetten lehnt es vielleicht ab.'],
+  roomPicture: [(side) => `pictures up to about ${side} × ${side} pixels fit.`, (side) => `Bilder bis etwa ${side} × ${side} Pixel passen.`],
+  roomId: ['an ID or a few letters fit, a picture hardly.', 'eine ID oder ein paar Buchstaben passen, ein Bild kaum.'],
+  roomNone: ['likely too few, even for an ID.', 'wohl zu wenige, selbst für eine ID.'],
+  roomTight: ['This picture is larger than that: marking may refuse it.', 'Dieses Bild ist größer: das Markieren lehnt es vielleicht ab.'],
   payload: ['What to hide', 'Was verborgen wird'],
   payloadImage: ['Picture', 'Bild'],
   payloadId: ['ID', 'ID'],
@@ -58,7 +57,7 @@ export const MARK_TEXTS = {
   needKey: ['a key', 'ein Schlüssel'],
   markDone: ['The model is marked.', 'Das Modell ist markiert.'],
   markDoneLabel: ['Done', 'Fertig'],
-  markProof: [(odds) => `The mark was read back from the file; by accident that happens ${odds}.`, (odds) => `Die Markierung wurde aus der Datei zurückgelesen; durch Zufall geschieht das ${odds}.`],
+  markProof: [(odds) => `The mark was read back from the file; by accident that happens at most ${odds}.`, (odds) => `Die Markierung wurde aus der Datei zurückgelesen; durch Zufall geschieht das höchstens ${odds}.`],
   keepKey: ['Save the key now. Without it nobody can read the mark, and this page keeps nothing.', 'Sichern Sie jetzt den Schlüssel. Ohne ihn kann niemand die Markierung lesen, und diese Seite behält nichts.'],
   saveModel: ['Save the marked model', 'Markiertes Modell speichern'],
   saveKey: ['Save the key', 'Schlüssel speichern'],
