@@ -154,6 +154,25 @@ test('keys of scheme paper trace IDs', async () => {
   assert.equal((await trace(glb, { key: paper, candidates })).verdict, 'none');
 });
 
+test('a salt goes into the registry, and tracing takes it from there', async (t) => {
+  const { mark, traced, entries } = await workspace(t, 'recipient\nAlice\nBob\n');
+  assert.equal((await mark('--salt', 'chair')).status, 0);
+  assert.equal((await mark('--out-dir', 'more', '--salt', 'table')).status, 0);
+  assert.deepEqual(entries().map(({ salt }) => salt), ['chair', 'chair', 'table', 'table']);
+  const { recipient, trials } = (await traced('more/Bob/in.glb', '--json')).json[0];
+  assert.deepEqual([recipient, trials], ['Bob', 4]);
+  assert.equal((await traced('more/Bob/in.glb', '--salt', 'chair')).status, 3);
+  assert.equal((await traced('more/Bob/in.glb', '--salt', 'lamp')).status, 2);
+});
+
+test('a dry run marks for everybody and leaves nothing', async (t) => {
+  const { mark, folder } = await workspace(t, 'recipient\nAlice\nBob\n');
+  const before = readdirSync(folder);
+  const dry = await mark('--dry-run', '--json');
+  assert.deepEqual([dry.status, ...dry.json.map(({ recipient, dryRun }) => [recipient, dryRun])], [0, ['Alice', true], ['Bob', true]]);
+  assert.deepEqual(readdirSync(folder), before);
+});
+
 test('the buffers of a .gltf go into each recipient\'s folder', async (t) => {
   const { gltf, bin } = splitGlb(glb, 'data.bin');
   const { cli, folder, traced } = await workspace(t, 'recipient,folder\nAlice,a\nBob,b\n', { 'in.gltf': gltf, 'data.bin': bin });
@@ -180,6 +199,10 @@ test('wrong use is refused with the reason, and leaves nothing', async (t) => {
   await refused(mark(), 1, /line 2: "\.\.\/up" is not the name of one folder/);
   writeFileSync(join(folder, 'list.csv'), 'recipient\na/b\na:b\n');
   await refused(mark(), 1, /line 3: the folder "a-b" is that of line 2 too/);
+  writeFileSync(join(folder, 'list.csv'), 'recipient,image\nAlice,absent.png\n');
+  await refused(mark(), 1, /list\.csv, line 2: cannot read .*absent\.png/);
+  writeFileSync(join(folder, 'list.csv'), 'recipient,image\nAlice,key.json\n');
+  await refused(mark(), 1, /list\.csv, line 2: key\.json: PNG/);
   writeFileSync(join(folder, 'list.csv'), Buffer.from('recipient\nJos\xe9\n', 'latin1'));
   await refused(mark(), 1, /not UTF-8/);
 
