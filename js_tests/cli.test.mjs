@@ -108,7 +108,7 @@ test('a 64-bit ID goes in and comes out', async (t) => {
 
 test('globs and --out-dir take many inputs', async (t) => {
   const { folder, path, cli } = await workspace(t, { 'a.ply': ply, 'b.glb': glb, 'deep/er/c.ply': ply, 'x.txt': 'no model' });
-  const embedded = await cli(['embed', '*.ply', 'b.?lb', 'deep/**/*.ply', '--out-dir', 'marked', '--key', 'key.json', '--image', 'logo.png', '--json']);
+  const embedded = await cli(['embed', '[!b-z].p?y', 'b.{glb,obj}', 'deep/**/*.ply', '--out-dir', 'marked', '--key', 'key.json', '--image', 'logo.png', '--json']);
   assert.equal(embedded.status, 0, embedded.stderr);
   assert.deepEqual(embedded.json.map(({ output }) => output), ['marked/a.ply', 'marked/b.glb', 'marked/c.ply']);
   assert.deepEqual(readdirSync(path('marked')).sort(), ['a.ply', 'b.glb', 'c.ply']);

@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: MIT
-// Globs, for shells that hand them over unexpanded: *, ? and **, matched against names, never following symbolic links
-// to directories.
+// Globs, for shells that hand them over unexpanded: *, ?, **, [abc] and {one,two}, matched against names, never following
+// symbolic links to directories.
 import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { QuadmarkError } from '../error.js';
 
-const isPattern = (text) => /[*?]/.test(text);
+const isPattern = (text) => /[*?]|\[[^\]]+\]|\{[^}]*,[^}]*\}/.test(text);
+
+/** "{a,b}c" as ["ac", "bc"]; braces may be nested. */
+function withoutBraces(text) {
+  const found = /\{([^{}]*,[^{}]*)\}/.exec(text);
+  if (!found) return [text];
+  const [whole, list] = found;
+  return list.split(',').flatMap((word) => withoutBraces(text.slice(0, found.index) + word + text.slice(found.index + whole.length)));
+}
 
 function toRegExp(segment) {
-  const source = segment.replace(/[.+^${}()|[\]\\]/g, '\\$&').replace(/\*/g, '.*').replace(/\?/g, '.');
-  return new RegExp(`^${source}$`, 'u');
+  const source = segment.replace(/\[(!|\^)?([^\]]+)\]|[.+^${}()|[\]\\*?]/g, (part, not, set) => {
+    if (set !== undefined) return `[${not ? '^' : ''}${set.replace(/[\\^[]/g, '\\$&')}]`;
+    return { '*': '.*', '?': '.' }[part] ?? `\\${part}`;
+  });
+  try {
+    return new RegExp(`^${source}$`, 'u');
+  } catch (cause) {
+    throw new QuadmarkError('bad_option', `${segment}: not a pattern that can be matched`, { cause });
+  }
 }
 
 function list(directory) {
@@ -48,7 +63,7 @@ function* match(directory, [segment, ...rest]) {
 export function expandGlobs(names) {
   return names.flatMap((name) => {
     if (name === '-' || !isPattern(name) || existsSync(name)) return [name];
-    const found = [...new Set(match('', name.split('/')))];
+    const found = [...new Set(withoutBraces(name).flatMap((pattern) => [...match('', pattern.split('/'))]))];
     if (found.length === 0) throw new QuadmarkError('io', `${name}: no file matches`);
     return found;
   });
