@@ -122,19 +122,18 @@ std::string layOut(bool negative, const Digits& number) {
   return text + 'e' + std::to_string(point - 1);
 }
 
-/// Splits an IEEE number of kMantissaBits stored mantissa bits. kLimbs holds 10^38 * 2^152 or 10^308 * 2^1076.
-template <int kLimbs, int kMantissaBits, int kBias>
-std::string format(std::uint64_t bits, bool negative) {
-  const std::uint64_t fraction = bits & ((std::uint64_t{1} << kMantissaBits) - 1);
-  const int biased = static_cast<int>(bits >> kMantissaBits);
+/// Splits an IEEE number into its stored mantissa bits, `mantissaBits` of them, and the exponent above them.
+std::string format(std::uint64_t bits, bool negative, int mantissaBits, int bias) {
+  const std::uint64_t hidden = std::uint64_t{1} << mantissaBits, fraction = bits & (hidden - 1);
+  const int biased = static_cast<int>(bits >> mantissaBits);
   if (biased == 0 && fraction == 0) return negative ? "-0" : "0";
-  const std::uint64_t mantissa = biased == 0 ? fraction : fraction | (std::uint64_t{1} << kMantissaBits);
-  const int exponent = (biased == 0 ? 1 : biased) - kBias - kMantissaBits;
+  const std::uint64_t mantissa = biased == 0 ? fraction : fraction | hidden;
+  const int exponent = (biased == 0 ? 1 : biased) - bias - mantissaBits;
   const bool atPowerOfTwo = fraction == 0 && biased > 1;
   // Floats from 2^-17 up to 2^24 stay below 2^52 throughout: 2^26 * 10^6 * 10 above the bar, 2^42 * 10 * 10 below it.
-  const bool small = kMantissaBits == 23 && exponent >= -40 && exponent <= 0 && biased != 0;
+  const bool small = mantissaBits == 23 && exponent >= -40 && exponent <= 0 && biased != 0;
   if (small) return layOut(negative, shortestDigits<Word>(mantissa, exponent, atPowerOfTwo));
-  return layOut(negative, shortestDigits<Natural<kLimbs>>(mantissa, exponent, atPowerOfTwo));
+  return layOut(negative, shortestDigits<Natural>(mantissa, exponent, atPowerOfTwo));
 }
 
 }  // namespace
@@ -142,13 +141,13 @@ std::string format(std::uint64_t bits, bool negative) {
 std::string formatShortest(float value) {
   std::uint32_t bits;
   std::memcpy(&bits, &value, sizeof(bits));
-  return format<10, 23, 127>(bits & 0x7fffffffu, (bits >> 31) != 0);
+  return format(bits & 0x7fffffffu, (bits >> 31) != 0, 23, 127);
 }
 
 std::string formatShortest(double value) {
   std::uint64_t bits;
   std::memcpy(&bits, &value, sizeof(bits));
-  return format<72, 52, 1023>(bits & 0x7fffffffffffffffu, (bits >> 63) != 0);
+  return format(bits & 0x7fffffffffffffffu, (bits >> 63) != 0, 52, 1023);
 }
 
 }  // namespace quadmark

@@ -79,27 +79,18 @@ struct FastRange<double> {
                                        1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 };
 
-template <class T>
-struct Format;
-template <>
-struct Format<float> {
-  using Bits = std::uint32_t;
-  static constexpr int kMantissaBits = 24, kLeastExponent = -149, kExponents = 255;  // the last one means infinity
+/// Of an IEEE number: bits of the mantissa with the hidden one, exponent of its last bit at the least, and the number
+/// of exponents, of which the last one means infinity.
+struct Format {
+  int mantissaBits, leastExponent, exponents;
 };
-template <>
-struct Format<double> {
-  using Bits = std::uint64_t;
-  static constexpr int kMantissaBits = 53, kLeastExponent = -1074, kExponents = 2047;
-};
-
-/// Enough for 781 digits, for 10^1131 and for these times 2^54: see parseExactly().
-using Large = Natural<128>;
+constexpr Format kFloat = {24, -149, 255}, kDouble = {53, -1074, 2047};
 
 /// The significant digits of a number as an integer, and the power of ten behind it. Digits beyond any that could matter
 /// become a last 1, which lies on the same side of every binary number and of every middle between two.
-Large significantDigits(std::string_view text, std::int64_t& power) {
+Natural significantDigits(std::string_view text, std::int64_t& power) {
   constexpr int kMostDigits = 780;  // a middle between two doubles has at most 767
-  Large value(0);
+  Natural value(0);
   int digits = 0;
   bool afterPoint = false, cutOff = false;
   for (const char character : text) {
@@ -123,23 +114,22 @@ Large significantDigits(std::string_view text, std::int64_t& power) {
 
 /// The general case: a quotient of integers, divided bit by bit and rounded once, ties to even.
 /// @param number  not zero.
-template <class T>
-T parseExactly(std::string_view text, const Decimal& number) {
-  using F = Format<T>;
+/// @return the bits of the number in its format, without the sign.
+std::uint64_t parseExactly(std::string_view text, const Decimal& number, const Format& format) {
+  const std::uint64_t hidden = std::uint64_t{1} << (format.mantissaBits - 1), infinity = format.exponents * hidden;
   // 1. Numbers out of all ranges, so that the integers stay within bounds.
-  const T sign = number.negative ? T{-1} : T{1};
-  if (number.exponent > 310) return sign * std::numeric_limits<T>::infinity();
-  if (number.exponent < -350) return sign * T{0};  // the mantissa is below 10^19
+  if (number.exponent > 310) return infinity;
+  if (number.exponent < -350) return 0;  // the mantissa is below 10^19
 
   // 2. numerator / denominator in [2^(bits-1), 2^bits) times 2^exponent, or less at the least exponent.
   std::int64_t power = number.written;
-  Large numerator = significantDigits(text, power), denominator(1);
+  Natural numerator = significantDigits(text, power), denominator(1);
   (power > 0 ? numerator : denominator).multiplyByPowerOfTen(static_cast<int>(power > 0 ? power : -power));
-  int exponent = numerator.bitLength() - denominator.bitLength() - F::kMantissaBits;
-  if (exponent < F::kLeastExponent) exponent = F::kLeastExponent;
+  int exponent = numerator.bitLength() - denominator.bitLength() - format.mantissaBits;
+  if (exponent < format.leastExponent) exponent = format.leastExponent;
   (exponent > 0 ? denominator : numerator).shiftLeft(exponent > 0 ? exponent : -exponent);
-  denominator.shiftLeft(F::kMantissaBits - 1);
-  Large twice = denominator;
+  denominator.shiftLeft(format.mantissaBits - 1);
+  Natural twice = denominator;
   twice.shiftLeft(1);
   if (numerator.compare(twice) >= 0) {
     denominator = twice;
@@ -148,7 +138,7 @@ T parseExactly(std::string_view text, const Decimal& number) {
 
   // 3. The bits, from the highest to the lowest.
   std::uint64_t mantissa = 0;
-  for (int bit = 0; bit < F::kMantissaBits; ++bit) {
+  for (int bit = 0; bit < format.mantissaBits; ++bit) {
     mantissa *= 2;
     if (numerator.compare(denominator) >= 0) {
       numerator.subtract(denominator);
@@ -160,17 +150,21 @@ T parseExactly(std::string_view text, const Decimal& number) {
   if (rest > 0 || (rest == 0 && mantissa % 2 != 0)) ++mantissa;
 
   // 4. Bits of the format. A carry into the next exponent, or from the denormal numbers, is right by itself.
-  const std::uint64_t hidden = std::uint64_t{1} << (F::kMantissaBits - 1), infinity = F::kExponents * hidden;
-  const std::uint64_t wide = static_cast<std::uint64_t>(exponent - F::kLeastExponent) * hidden + mantissa;
-  const auto bits = static_cast<typename F::Bits>(wide < infinity ? wide : infinity);
-  T value;
+  const std::uint64_t bits = static_cast<std::uint64_t>(exponent - format.leastExponent) * hidden + mantissa;
+  return bits < infinity ? bits : infinity;
+}
+
+void parseExactly(std::string_view text, const Decimal& number, float& value) {
+  const auto bits = static_cast<std::uint32_t>(parseExactly(text, number, kFloat));
   std::memcpy(&value, &bits, sizeof(value));
-  return sign * value;
+}
+void parseExactly(std::string_view text, const Decimal& number, double& value) {
+  const std::uint64_t bits = parseExactly(text, number, kDouble);
+  std::memcpy(&value, &bits, sizeof(value));
 }
 
 /// NaN or infinity in the spellings that printf implementations produce.
-template <class T>
-std::optional<T> parseNotFinite(std::string_view text) {
+std::optional<double> parseNotFinite(std::string_view text) {
   const bool negative = !text.empty() && text[0] == '-';
   if (!text.empty() && (text[0] == '-' || text[0] == '+')) text.remove_prefix(1);
   std::string lower;
@@ -178,11 +172,11 @@ std::optional<T> parseNotFinite(std::string_view text) {
     lower += character >= 'A' && character <= 'Z' ? static_cast<char>(character - 'A' + 'a') : character;
   }
   if (lower == "inf" || lower == "infinity" || lower == "1.#inf") {
-    return negative ? -std::numeric_limits<T>::infinity() : std::numeric_limits<T>::infinity();
+    return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
   }
   const bool nan = lower == "nan" || lower == "nan(ind)" || lower == "nan(snan)" || lower == "1.#ind" ||
                    lower == "1.#qnan" || lower == "1.#snan";
-  if (nan) return std::numeric_limits<T>::quiet_NaN();
+  if (nan) return std::numeric_limits<double>::quiet_NaN();
   return std::nullopt;
 }
 
@@ -218,13 +212,18 @@ std::optional<float> parseByDouble(const Decimal& number) {
 template <class T>
 std::optional<T> parseNumber(std::string_view text) {
   const std::optional<Decimal> number = takeApart(text);
-  if (!number) return parseNotFinite<T>(text);
+  if (!number) {
+    const std::optional<double> value = parseNotFinite(text);
+    return value ? std::optional<T>(static_cast<T>(*value)) : std::nullopt;
+  }
   if (const std::optional<T> value = parseFast<T>(*number)) return value;
   if constexpr (std::is_same_v<T, float>) {
     if (const std::optional<float> value = parseByDouble(*number)) return value;
   }
   if (number->mantissa == 0 && !number->truncated) return number->negative ? -T{0} : T{0};
-  return parseExactly<T>(text, *number);
+  T value;
+  parseExactly(text, *number, value);
+  return number->negative ? -value : value;
 }
 
 }  // namespace
