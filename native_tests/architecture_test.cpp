@@ -76,7 +76,7 @@ const std::map<std::string, std::set<std::string>>& allowed() {
                                                    "key",    "image",  "adjacency", "quad",   "digits",     "payload",
                                                    "cells",  "purity", "verdict",   "embed",  "extract",    "metrics",
                                                    "io",     "report", "quadmark",  "robust", "vec3",       "trig",
-                                                   "json"};
+                                                   "json",   "sorting"};
   static const std::map<std::string, std::set<std::string>> rules = {
       {"result", {}},
       {"random", {}},
@@ -91,14 +91,16 @@ const std::map<std::string, std::set<std::string>>& allowed() {
       {"image", {"result", "stb"}},
       {"key", {"result"}},
       {"key_file", {"key", "base64", "json", "number"}},
-      {"adjacency", {"mesh"}},
+      {"sorting", {}},
+      {"adjacency", {"mesh", "sorting"}},
       {"digits", {"key"}},
       {"payload", {"key", "prf"}},
       {"verdict", {"exact_math"}},
       {"purity", {"digits"}},
       {"cells", {"adjacency", "key", "quad"}},
-      {"extract", {"adjacency", "quad", "cells", "digits", "key", "payload", "purity", "verdict", "exact_math"}},
-      {"embed", {"adjacency", "quad", "cells", "digits", "key", "mesh", "result", "payload", "extract"}},
+      {"extract",
+       {"adjacency", "quad", "cells", "digits", "key", "payload", "purity", "verdict", "exact_math", "sorting"}},
+      {"embed", {"adjacency", "quad", "cells", "digits", "key", "mesh", "result", "payload", "extract", "sorting"}},
       {"metrics", {"mesh", "adjacency"}},
       {"vec3", {}},
       {"trig", {}},

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "sorting.h"
+
 namespace quadmark {
 namespace {
 
@@ -121,17 +123,6 @@ void forEachEdge(const Mesh& mesh, const WeldedMesh& welded, const Visit& visit)
       if (a != b) visit(a, b);
       a = b;
     }
-  }
-}
-
-void sortShort(std::uint32_t* begin, std::uint32_t* end) {
-  constexpr std::ptrdiff_t kShort = 24;  // nearly all lists; but the hub of a fan may have a million neighbours
-  if (end - begin > kShort) return std::sort(begin, end);
-  for (std::uint32_t* at = begin; at != end; ++at) {
-    const std::uint32_t value = *at;
-    std::uint32_t* to = at;
-    for (; to != begin && to[-1] > value; --to) *to = to[-1];
-    *to = value;
   }
 }
 

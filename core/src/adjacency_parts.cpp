@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "quadmark/adjacency.h"
+#include "sorting.h"
 
 namespace quadmark {
 namespace {
@@ -25,7 +26,7 @@ WeldedMesh regroup(const WeldedMesh& welded, const std::vector<std::uint32_t>& n
       for (std::uint32_t w : welded.neighboursOf(members[next]))
         if (numberOf[w] != kNoVertex && numberOf[w] != number) out.neighbours.push_back(numberOf[w]);
     const auto first = out.neighbours.begin() + static_cast<std::ptrdiff_t>(begin);
-    std::sort(first, out.neighbours.end());
+    sortShort(first, out.neighbours.end());
     out.neighbours.erase(std::unique(first, out.neighbours.end()), out.neighbours.end());
   }
   out.edgeOffsets.push_back(static_cast<std::uint32_t>(out.neighbours.size()));
@@ -62,7 +63,7 @@ class SeamFinder {
         key = key << 16 | (static_cast<std::uint64_t>((at(v)[axis] - low[axis]) / reach_) + 1);
       cells_.push_back({key, v});
     }
-    std::sort(cells_.begin(), cells_.end(), [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.vertex < b.vertex; });
+    sortByKey(cells_);
     for (std::size_t begin = 0, end = 0; begin < cells_.size(); begin = end) {
       while (end < cells_.size() && cells_[end].key == cells_[begin].key) ++end;
       if (end - begin > kMostPerCell) continue;
@@ -77,11 +78,6 @@ class SeamFinder {
   }
 
  private:
-  struct Entry {
-    std::uint64_t key;
-    std::uint32_t vertex;
-  };
-
   [[nodiscard]] const double* at(std::uint32_t v) const { return &welded_.positions[3 * std::size_t{v}]; }
 
   [[nodiscard]] double distance2(std::uint32_t v, std::uint32_t w) const {
@@ -100,13 +96,14 @@ class SeamFinder {
   }
 
   void compare(std::size_t begin, std::size_t end, std::uint64_t key) {
-    auto other = std::lower_bound(cells_.begin(), cells_.end(), key, [](const Entry& e, std::uint64_t k) { return e.key < k; });
+    auto other = std::lower_bound(cells_.begin(), cells_.end(), key,
+                                  [](const KeyedIndex& e, std::uint64_t k) { return e.key < k; });
     const auto first = other;
     while (other != cells_.end() && other->key == key) ++other;
     if (static_cast<std::size_t>(other - first) > kMostPerCell) return;
     for (std::size_t i = begin; i < end; ++i)
       for (auto j = first; j != other; ++j)
-        if (cells_[i].vertex != j->vertex && areTwins(cells_[i].vertex, j->vertex)) join(cells_[i].vertex, j->vertex);
+        if (cells_[i].index != j->index && areTwins(cells_[i].index, j->index)) join(cells_[i].index, j->index);
   }
 
   [[nodiscard]] bool areTwins(std::uint32_t v, std::uint32_t w) const {
@@ -131,7 +128,7 @@ class SeamFinder {
 
   const WeldedMesh& welded_;
   std::vector<std::uint32_t> leader_;
-  std::vector<Entry> cells_;
+  std::vector<KeyedIndex> cells_;
   double reach_ = 0;
 };
 
@@ -166,15 +163,15 @@ WeldedMesh closeSeams(const WeldedMesh& welded, std::vector<std::uint32_t>& orig
   origin.clear();
   std::vector<std::uint32_t> numberOf(welded.vertexCount(), kNoVertex), members(welded.vertexCount());
   for (std::uint32_t v = 0; v < leader.size(); ++v) {
-    members[v] = v;
     if (leader[v] != v) continue;
     numberOf[v] = static_cast<std::uint32_t>(origin.size());
     origin.push_back(v);
   }
   for (std::uint32_t v = 0; v < leader.size(); ++v) numberOf[v] = numberOf[leader[v]];
-  std::sort(members.begin(), members.end(), [&](std::uint32_t v, std::uint32_t w) {
-    return numberOf[v] != numberOf[w] ? numberOf[v] < numberOf[w] : v < w;
-  });
+  std::vector<std::uint32_t> cursor(origin.size() + 1, 0);
+  for (std::uint32_t number : numberOf) ++cursor[number + 1];
+  for (std::size_t number = 1; number < cursor.size(); ++number) cursor[number] += cursor[number - 1];
+  for (std::uint32_t v = 0; v < leader.size(); ++v) members[cursor[numberOf[v]]++] = v;
   return regroup(welded, numberOf, members, origin);
 }
 

@@ -10,6 +10,7 @@
 #include <deque>
 
 #include "embedder.h"
+#include "sorting.h"
 
 namespace quadmark {
 namespace {
@@ -113,17 +114,17 @@ Status Embedder::assign() {
     low[i % 3] = std::min(low[i % 3], positions_[i]);
     high[i % 3] = std::max(high[i % 3], positions_[i]);
   }
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> curve;
+  std::vector<KeyedIndex> curve;
   curve.reserve(order.size());
   for (std::uint32_t i : order) {
     const double* p = &positions_[3 * std::size_t{cells_[i].quad.a}];
     std::uint64_t code = 0;
     for (int k = 0; k < 3; ++k)
       code |= spread(static_cast<std::uint64_t>((p[k] - low[k]) / diagonal_ * 65535)) << k;
-    curve.emplace_back(code, i);
+    curve.push_back({code, i});
   }
-  std::sort(curve.begin(), curve.end());
-  for (std::size_t i = 0; i < curve.size(); ++i) order[i] = curve[i].second;
+  sortByKey(curve);
+  for (std::size_t i = 0; i < curve.size(); ++i) order[i] = curve[i].index;
   // Where many cells are coarse, each piece gets one of the finest cells first, so that none depends on coarse ones alone.
   const auto fine = std::count_if(order.begin(), order.end(),
                                   [&](std::uint32_t i) { return coarseness(cells_[i].quad) <= kFineCoarseness; });
@@ -133,7 +134,9 @@ Status Embedder::assign() {
     std::vector<double> sorted = all;
     std::nth_element(sorted.begin(), sorted.begin() + pieces - 1, sorted.end());
     const double limit = sorted[pieces - 1];
-    std::stable_partition(order.begin(), order.end(), [&](std::uint32_t i) { return coarseness(cells_[i].quad) <= limit; });
+    std::vector<std::uint32_t> fineOnes, others;
+    for (std::uint32_t i : order) (coarseness(cells_[i].quad) <= limit ? fineOnes : others).push_back(i);
+    std::copy(others.begin(), others.end(), std::copy(fineOnes.begin(), fineOnes.end(), order.begin()));
   }
 
   copies_.assign(pieces, 0);

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "embedder.h"
+#include "sorting.h"
 
 namespace quadmark {
 namespace {
@@ -50,6 +52,18 @@ Frame frameOf(const Quad& q, const double* positions) {
   f.w[2] = f.n[0] * f.u[1] - f.n[1] * f.u[0];
   f.radius = 0.5 * q.longerDiagonal();
   return f;
+}
+
+// By their vertices in turn. CAD models have many.
+void sortSets(std::span<std::array<std::uint32_t, 4>> sets) {
+  std::vector<KeyedIndex> order(sets.size());
+  for (const std::size_t half : {2, 0}) {  // what is equal in the first half keeps the order of the second
+    for (std::uint32_t i = 0; i < sets.size(); ++i)
+      order[i] = {std::uint64_t{sets[i][half]} << 32 | sets[i][half + 1], i};
+    sortByKey(order);
+    const std::vector<std::array<std::uint32_t, 4>> before(sets.begin(), sets.end());
+    for (std::size_t i = 0; i < sets.size(); ++i) sets[i] = before[order[i].index];
+  }
 }
 
 }  // namespace
@@ -110,11 +124,13 @@ void Embedder::updateFlatSets(const std::vector<Quad>& found, const std::vector<
   const auto known = static_cast<std::ptrdiff_t>(flatSets_.size());
   for (const Quad& quad : found) {
     VertexSet set = {quad.a, quad.b, quad.c, quad.d};
-    std::sort(set.begin(), set.end());
+    sortShort(set.begin(), set.end());
     if (!std::binary_search(flatSets_.begin(), flatSets_.begin() + known, set)) flatSets_.push_back(set);
   }
-  std::sort(flatSets_.begin() + known, flatSets_.end());
-  std::inplace_merge(flatSets_.begin(), flatSets_.begin() + known, flatSets_.end());
+  sortSets(std::span(flatSets_).subspan(static_cast<std::size_t>(known)));
+  std::vector<VertexSet> all(flatSets_.size());
+  std::merge(flatSets_.begin(), flatSets_.begin() + known, flatSets_.begin() + known, flatSets_.end(), all.begin());
+  flatSets_.swap(all);
 }
 
 bool Embedder::areHarmless(std::size_t unwanted) const {

@@ -6,6 +6,7 @@
 
 #include "embedder.h"
 #include "quadmark/extract.h"
+#include "sorting.h"
 
 namespace quadmark {
 
@@ -44,7 +45,7 @@ std::vector<std::uint32_t> Embedder::badPieces(const Extraction& read) const {
   std::vector<std::uint32_t> bad;
   for (std::size_t i = 0; i < bits_.size(); ++i)
     if (read.erased[i] || read.bits[i] != bits_[i]) bad.push_back(target[i] / width);
-  std::sort(bad.begin(), bad.end());
+  sortCompactly(bad.begin(), bad.end());
   bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
   return bad;
 }
@@ -177,7 +178,7 @@ void Embedder::renumberEdges(const std::vector<std::uint32_t>& oldOf) {
   for (std::uint32_t old : oldOf) {
     offsets.push_back(static_cast<std::uint32_t>(neighbours.size()));
     for (std::uint32_t neighbour : welded_.neighboursOf(old)) neighbours.push_back(numberOf[neighbour]);
-    std::sort(neighbours.begin() + offsets.back(), neighbours.end());
+    sortShort(neighbours.begin() + offsets.back(), neighbours.end());
   }
   offsets.push_back(static_cast<std::uint32_t>(neighbours.size()));
   welded_.edgeOffsets.swap(offsets);

@@ -6,6 +6,7 @@
 
 #include "purity.h"
 #include "quadmark/exact_math.h"
+#include "sorting.h"
 
 namespace quadmark {
 namespace {
@@ -146,7 +147,7 @@ class Extractor {
       else
         contested.push_back({purity, diagonalSum(c), &c});
     });
-    std::sort(contested.begin(), contested.end(), [&](const Rival& x, const Rival& y) {
+    sortCompactly(contested.begin(), contested.end(), [&](const Rival& x, const Rival& y) {
       if (x.purity != y.purity) return x.purity > y.purity;
       if (x.diagonalSum != y.diagonalSum) return x.diagonalSum > y.diagonalSum;
       const auto &p = x.candidate->vertices, &q = y.candidate->vertices;
@@ -234,14 +235,28 @@ class Extractor {
     return out_.cancelled;
   }
 
+  // Votes by label, those with one label by piece, those for one piece from the heaviest to the lightest.
+  void sortVotes() {
+    std::vector<KeyedIndex> order;
+    order.reserve(accepted_.size());
+    for (const Vote& vote : accepted_) order.push_back({vote.label, static_cast<std::uint32_t>(order.size())});
+    sortByKey(order);
+    std::vector<Vote> sorted;
+    sorted.reserve(accepted_.size());
+    for (const KeyedIndex& entry : order) sorted.push_back(accepted_[entry.index]);
+    for (auto begin = sorted.begin(), end = begin; begin != sorted.end(); begin = end) {
+      while (end != sorted.end() && end->label == begin->label) ++end;
+      sortShort(begin, end, [](const Vote& x, const Vote& y) {
+        return x.piece != y.piece ? x.piece < y.piece : x.weight > y.weight;
+      });
+    }
+    accepted_.swap(sorted);
+  }
+
   // Sums the votes of everything accepted so far: bits, erasures, confidence (D22).
   // @param trust  0..1, factor on all log odds.
   void settle(double trust) {
-    std::sort(accepted_.begin(), accepted_.end(), [](const Vote& x, const Vote& y) {
-      if (x.label != y.label) return x.label < y.label;
-      if (x.piece != y.piece) return x.piece < y.piece;
-      return x.weight > y.weight;
-    });
+    sortVotes();
     const std::uint32_t width = static_cast<std::uint32_t>(codec_.bitsPerPiece());
     sums_.assign(std::size_t{codec_.pieces()} * width, 0);
     for (std::size_t begin = 0; begin < accepted_.size();) {

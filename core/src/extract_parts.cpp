@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sorting.h"
+
 namespace quadmark {
 namespace {
 
@@ -38,7 +40,7 @@ std::vector<std::vector<std::uint32_t>> largestComponents(const WeldedMesh& weld
   std::vector<Ranked> ranked;
   for (std::uint32_t i = 0; i < members.size(); ++i)
     ranked.push_back({members[i].size(), *std::min_element(members[i].begin(), members[i].end(), before), i});
-  std::sort(ranked.begin(), ranked.end(), [&](const Ranked& a, const Ranked& b) {
+  sortCompactly(ranked.begin(), ranked.end(), [&](const Ranked& a, const Ranked& b) {
     if (a.size != b.size) return a.size > b.size;
     if (before(a.least, b.least) || before(b.least, a.least)) return before(a.least, b.least);
     return a.index < b.index;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sorting.h"
+
 namespace quadmark::io {
 
 void AllowedSpans::add(std::uint64_t begin, std::uint64_t stride, std::uint64_t width, std::uint64_t count) {
@@ -13,11 +15,11 @@ void AllowedSpans::add(std::uint64_t begin, std::uint64_t stride, std::uint64_t 
 }
 
 void AllowedSpans::finish() {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> byPlace;
-  for (const Run& run : runs_) byPlace.emplace_back(run.begin, static_cast<std::uint32_t>(byPlace.size()));
-  std::sort(byPlace.begin(), byPlace.end());
+  std::vector<KeyedIndex> byPlace;
+  for (const Run& run : runs_) byPlace.push_back({run.begin, static_cast<std::uint32_t>(byPlace.size())});
+  sortByKey(byPlace);
   std::vector<Run> sorted;
-  for (const auto& entry : byPlace) sorted.push_back(runs_[entry.second]);
+  for (const KeyedIndex& entry : byPlace) sorted.push_back(runs_[entry.index]);
   runs_ = std::move(sorted);
   largestEnd_.clear();
   std::uint64_t largest = 0;

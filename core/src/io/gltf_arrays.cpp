@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sorting.h"
+
 namespace quadmark::io {
 namespace {
 
@@ -84,7 +86,7 @@ std::vector<std::uint32_t> positionAccessors(const GltfDocument& document) {
 std::vector<std::uint32_t> joinWindows(std::vector<Layout>& layouts, std::vector<Layout>& arrays) {
   std::vector<std::uint32_t> byPlace(layouts.size());
   for (std::uint32_t i = 0; i < byPlace.size(); ++i) byPlace[i] = i;
-  std::sort(byPlace.begin(), byPlace.end(), [&](std::uint32_t left, std::uint32_t right) {
+  sortCompactly(byPlace.begin(), byPlace.end(), [&](std::uint32_t left, std::uint32_t right) {
     const Layout& a = layouts[left];
     const Layout& b = layouts[right];
     if (a.buffer != b.buffer) return a.buffer < b.buffer;
@@ -117,7 +119,7 @@ std::vector<std::uint32_t> joinWindows(std::vector<Layout>& layouts, std::vector
 class PlaceIndex {
  public:
   explicit PlaceIndex(std::vector<Layout> arrays) : arrays_(std::move(arrays)) {
-    std::sort(arrays_.begin(), arrays_.end(), [](const Layout& a, const Layout& b) {
+    sortCompactly(arrays_.begin(), arrays_.end(), [](const Layout& a, const Layout& b) {
       if (a.buffer != b.buffer) return a.buffer < b.buffer;
       return a.start != b.start ? a.start < b.start : a.accessor < b.accessor;
     });

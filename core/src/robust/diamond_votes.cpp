@@ -5,6 +5,7 @@
 
 #include "likelihood.h"
 #include "quadmark/exact_math.h"
+#include "sorting.h"
 
 namespace quadmark::robust {
 namespace {
@@ -39,7 +40,7 @@ struct Blur {
 DiamondVotes::DiamondVotes(const Surface& surface, const std::vector<double>& positions,
                            std::span<const double> sigmas) {
   for (const double sigma : sigmas) limits_.push_back(kFarthest * sigma);
-  std::sort(limits_.begin(), limits_.end());
+  sortCompactly(limits_.begin(), limits_.end());
   const std::vector<Diamond> diamonds = collectDiamonds(surface);
   const auto sectionOf = [&](float gap) {
     std::uint8_t s = 0;

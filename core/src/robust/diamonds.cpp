@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sorting.h"
+
 namespace quadmark::robust {
 namespace {
 
@@ -41,7 +43,7 @@ std::vector<Diamond> collectDiamonds(const Surface& surface) {
   out.reserve(edges.size() / 2);
   for (std::uint32_t v = 0; v < surface.vertexCount(); ++v) {
     const auto begin = edges.begin() + offsets[v], end = edges.begin() + offsets[v + 1];
-    std::sort(begin, end, [](const HalfEdge& x, const HalfEdge& y) {
+    sortShort(begin, end, [](const HalfEdge& x, const HalfEdge& y) {
       return x.high != y.high ? x.high < y.high : x.opposite < y.opposite;
     });
     for (auto e = begin; e != end;) {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "point_triangle.h"
+#include "sorting.h"
 
 namespace quadmark::robust {
 namespace {
@@ -49,7 +50,7 @@ void dropDearest(const std::vector<Expense>& expenses, double limit, const Cost&
   for (std::uint32_t i = 0; i < expenses.size(); ++i)
     if (dropped[i] == 0) sum += cost(expenses[i]), order.push_back(i);
   if (sum <= limit) return;
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+  sortCompactly(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     const double x = cost(expenses[a]) * expenses[b].votes, y = cost(expenses[b]) * expenses[a].votes;
     return x != y ? x > y : a < b;
   });

@@ -8,6 +8,7 @@
 #include "embed_rings.h"
 #include "quadmark/random.h"
 #include "quadmark/trig.h"
+#include "sorting.h"
 
 namespace quadmark::robust {
 namespace {
@@ -251,7 +252,7 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
       hit[slot.index % hit.size()] = 1;
     }
   }
-  std::sort(labels.begin(), labels.end());
+  sortCompactly(labels.begin(), labels.end());
   out.labels = static_cast<std::uint32_t>(std::unique(labels.begin(), labels.end()) - labels.begin());
   for (const WrittenCell& cell : cells.cells)
     for (std::uint32_t t = 0; t < constellation.shape().symbol; ++t) {

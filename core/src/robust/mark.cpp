@@ -7,6 +7,7 @@
 #include "quadmark/exact_math.h"
 #include "quadmark/robust/code.h"
 #include "quadmark/robust/evidence.h"
+#include "sorting.h"
 
 namespace quadmark::robust {
 namespace {
@@ -170,7 +171,7 @@ class Reading {
         const std::vector<float> ratios = source_.headRatios(plan_[i]);
         candidates.push_back({logChance(ratios, head), i, honestScale(ratios, head)});
       }
-      std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+      sortCompactly(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
         return a.chance != b.chance ? a.chance < b.chance : a.index < b.index;
       });
       if (candidates.size() > kBodyHypotheses) candidates.resize(kBodyHypotheses);

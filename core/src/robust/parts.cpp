@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "quadmark/robust/parts.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "quadmark/adjacency.h"
 #include "quadmark/robust/mesh_source.h"
+#include "sorting.h"
 
 namespace quadmark::robust {
 namespace {
@@ -28,8 +28,8 @@ std::vector<Object> objectsOf(const Mesh& mesh) {
   std::vector<std::uint32_t> size(count, 0), order(count), place(count, kNoVertex);
   for (const std::uint32_t c : componentOf) ++size[c];
   for (std::uint32_t c = 0; c < count; ++c) order[c] = c;
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return size[a] != size[b] ? size[a] > size[b] : a < b; });
+  sortCompactly(order.begin(), order.end(),
+                [&](std::uint32_t a, std::uint32_t b) { return size[a] != size[b] ? size[a] > size[b] : a < b; });
   std::vector<Object> objects;
   for (const std::uint32_t c : order) {
     if (size[c] < kLeastComponentVertices || objects.size() == kMostComponents) break;

@@ -7,6 +7,7 @@
 
 #include "diamond_votes.h"
 #include "ring_votes.h"
+#include "sorting.h"
 
 namespace quadmark::robust {
 namespace {
@@ -116,7 +117,7 @@ struct MeshReader::State {
     if (isNew) {
       std::vector<std::pair<double, double>> fits;  // ascending by -fit, then by step
       for (const double step : kRingSteps) fits.push_back({-rings(sharpening).fit({step, sigma * extent}), step});
-      std::sort(fits.begin(), fits.end());
+      sortCompactly(fits.begin(), fits.end());
       for (const auto& fit : fits) place->second.push_back(fit.second);
     }
     return place->second[std::min(rank, std::size(kRingSteps) - 1)];

@@ -6,11 +6,11 @@
 #include "ring_votes.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "likelihood.h"
 #include "quadmark/exact_math.h"
 #include "quadmark/trig.h"
+#include "sorting.h"
 
 namespace quadmark::robust {
 namespace {
@@ -30,19 +30,17 @@ double peak(double x, double spread) {
 RingVotes::RingVotes(const Carriers& carriers, const RingCode& code, const std::vector<double>& positions,
                      const SymmetricTensor& tensor) {
   const std::uint32_t count = carriers.count();
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return carriers.label[a] != carriers.label[b] ? carriers.label[a] < carriers.label[b] : a < b;
-  });
+  std::vector<KeyedIndex> order(count);
+  for (std::uint32_t c = 0; c < count; ++c) order[c] = {carriers.label[c], c};
+  sortByKey(order);
   samples_.reserve(count);
   std::uint64_t current = 0;
-  for (const std::uint32_t c : order) {
+  for (const auto& [label, c] : order) {
     RingFrame frame;
     if (!ringFrame(positions, carriers.ring(c), tensor, frame)) continue;
     const auto index = static_cast<std::uint32_t>(samples_.size());
-    if (labels_.empty() || carriers.label[c] != current) {
-      current = carriers.label[c];
+    if (labels_.empty() || label != current) {
+      current = label;
       labels_.push_back({{code.slot(current, 0), code.slot(current, 1)}, index, index});
     }
     const RingCoordinates p = coordinatesIn(frame, at(positions, carriers.vertex[c]));

@@ -9,6 +9,7 @@
 #include "quadmark/random.h"
 #include "quadmark/robust/mark.h"
 #include "quadmark/robust/mesh_source.h"
+#include "sorting.h"
 
 namespace quadmark::robust {
 namespace {
@@ -81,7 +82,7 @@ Mesh collapsed(Mesh mesh, double share) {
       }
       if (v < w) edges.push_back({squared, v, w});
     }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+  sortCompactly(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
     return std::pair(a.squared, std::pair(a.from, a.to)) < std::pair(b.squared, std::pair(b.from, b.to));
   });
   std::vector<std::uint8_t> touched(welded.vertexCount(), 0);
@@ -119,7 +120,7 @@ Mesh halved(const Mesh& mesh) {
   }
   for (std::size_t f = 0; f < mesh.faceCount(); ++f)
     order.emplace_back(mesh.positions[3 * std::size_t{mesh.faceVertices[mesh.faceBegin(f)]} + axis], f);
-  std::sort(order.begin(), order.end());
+  sortCompactly(order.begin(), order.end());
   order.resize((order.size() + 1) / 2);
   Mesh out = mesh;
   out.faceVertices.clear();
