@@ -4,11 +4,11 @@ import assert from 'node:assert/strict';
 import { chmodSync, cpSync, mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
 import { delimiter, join } from 'node:path';
 import { test } from 'node:test';
-import { createKey, extract } from 'quadmark';
+import { extract } from 'quadmark';
 import { cliFile, realModel, repository, run, temporaryFolder } from './support/files.mjs';
-import { sculpture } from './support/marks.mjs';
+import { fixedRobustKey, sculpture } from './support/marks.mjs';
 
-const key = await createKey();
+const key = await fixedRobustKey();
 
 /** A copy of an example with node_modules, key.json, model.glb and the command quadmark. */
 async function project(t, name) {

@@ -10,10 +10,11 @@ import { createKey, embed, extract } from 'quadmark';
 import { quadmark, QUADMARK_DEFAULTS } from 'quadmark/gltf-transform';
 import { allRealModels, readImageFiles, readModelFiles, repository, run, temporaryFolder } from './support/files.mjs';
 import { readDocument, validatorErrors } from './support/gltf_readers.mjs';
+import { fixedRobustKey } from './support/marks.mjs';
 import { webScene } from './support/scenes.mjs';
 import { runTool } from './support/tools.mjs';
 
-const key = await createKey();
+const key = await fixedRobustKey();
 const id = 'c0ffee0000000001';
 const scene = await webScene(6000);
 const io = new NodeIO().registerExtensions(ALL_EXTENSIONS);

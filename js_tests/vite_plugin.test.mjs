@@ -11,9 +11,9 @@ import { quadmark } from 'quadmark/vite';
 import { noChromium, openChromium } from './support/chromium.mjs';
 import { realModel, repository, run, temporaryFolder } from './support/files.mjs';
 import { splitGlb } from './support/gltf.mjs';
-import { sculpture } from './support/marks.mjs';
+import { fixedRobustKey, sculpture } from './support/marks.mjs';
 
-const key = await createKey();
+const key = await fixedRobustKey();
 const glb = await sculpture('glb', 4000);
 const coarse = (await generate({ name: 'icosphere', vertices: 250, format: 'glb' })).bytes;
 const { gltf, bin } = splitGlb(glb, 'data.bin');

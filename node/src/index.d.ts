@@ -221,7 +221,10 @@ export interface TracedCandidate {
   salt: string;
   /** Upper bound on the probability of this much agreement by chance ... */
   falsePositive: number;
-  /** ... and times the number of candidates, at most 1. */
+  /**
+   * ... and corrected for the choice among candidates: times their number where each was asked for (Bonferroni), times the
+   * number of salts where the mark was read blindly, since the bound of such a reading holds for all 2^64 IDs already. At most 1.
+   */
   corrected: number;
 }
 
@@ -231,7 +234,7 @@ export interface TraceResult {
   verdict: 'match' | 'none' | 'inconclusive';
   recipient: string | null;
   id: string | null;
-  /** Upper bound on the probability of naming anyone wrongly: that of the best candidate times `trials`; match: up to 1e-6. */
+  /** Upper bound on the probability of naming anyone wrongly: the best candidate's `corrected`; match: up to 1e-6. */
   falsePositive: number;
   /** "read": the mark was read blindly; "compared": it was too faint for that, and each candidate's was asked for. */
   method: 'read' | 'compared';

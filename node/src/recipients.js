@@ -115,21 +115,31 @@ export function createRecipients({ extract, parseKey, decodeImage }, lanes = 1) 
     return { ...candidate, image: await decodeImage(candidate.image) };
   }
 
-  /** [{ candidate, falsePositive }]: what a blind reading says about the candidates of its salt. */
-  async function judge(read, candidates, compare) {
-    const readAs = (same) => candidates.filter(same).map((candidate) => ({ candidate, falsePositive: read.falsePositive }));
+  /**
+   * [{ candidate, falsePositive, corrected }]: what a blind reading says about the candidates of its salt.
+   * @param trials  how many candidates there are in all; every comparison with one is one more chance to be wrong
+   * @param salts   how many blind readings there are
+   */
+  async function judge(read, candidates, { trials, salts }, compare) {
+    // The bound of a blind reading holds for all 2^64 IDs (or pictures) at once, so it holds for those of the list.
+    const presence = read.falsePositive * salts;
+    const readAs = (same) => candidates.filter(same)
+      .map((candidate) => ({ candidate, falsePositive: read.falsePositive, corrected: presence }));
     if (read.report.scheme !== 'paper') {
       if (read.id !== null) return readAs(({ id }) => id === read.id);
       if (read.text !== null) return [];
       if (read.report.exact === true) return readAs(({ image }) => image !== undefined && samePixels(image, read.image));
-      if (read.image === null) return compare(candidates);
+      if (read.image === null) {
+        return (await compare(candidates)).map((one) => ({ ...one, corrected: one.falsePositive * trials }));
+      }
     }
     if (read.verdict === 'none') return [];
     const bits = candidates.map(bitsOf);
     return candidates.flatMap((candidate, i) => {
       if (bits[i]?.length !== read.image.bits.length) return [];
       const others = bits.filter((other, j) => j !== i && other?.length === bits[i].length);
-      return [{ candidate, falsePositive: Math.max(read.falsePositive, pixelProbability(read.image, bits[i], others)) }];
+      const pixels = pixelProbability(read.image, bits[i], others);
+      return [{ candidate, falsePositive: Math.max(read.falsePositive, pixels), corrected: Math.max(presence, pixels * trials) }];
     });
   }
 
@@ -152,9 +162,7 @@ export function createRecipients({ extract, parseKey, decodeImage }, lanes = 1) 
       if (candidates.length === 0) throw new QuadmarkError('bad_option', 'candidates: nobody is in the list');
       const salts = [...new Set(candidates.map(({ salt }) => salt))];
       if (key.scheme === 'paper' && salts.some((salt) => salt !== '')) throw new QuadmarkError('bad_option', 'candidates: a salt does not go with a key of scheme paper');
-      // Every comparison is one more chance to be wrong: by Bonferroni, as many times the probability of one.
       const trials = candidates.length;
-      const corrected = (probability) => Math.min(1, probability * trials);
       const call = (salt, expected) => extract(bytes, {
         key, resources, ...expected, options: { onProgress, signal, ...(salt === '' ? {} : { salt }) },
       });
@@ -166,7 +174,7 @@ export function createRecipients({ extract, parseKey, decodeImage }, lanes = 1) 
         const ofSalt = candidates.filter((candidate) => candidate.salt === salt);
         if (blind.id !== null && blind.verdict === 'match') read.push(blind.id);
         doubtful ||= blind.verdict === 'inconclusive';
-        found.push(...await judge(blind, ofSalt, (asked) => inLanes(asked, async (candidate) => {
+        found.push(...await judge(blind, ofSalt, { trials, salts: salts.length }, (asked) => inLanes(asked, async (candidate) => {
           const { id, image } = candidate;
           const { report: { expected } } = await call(salt, id === undefined ? { reference: image } : { expectId: id });
           ++compared;
@@ -175,9 +183,10 @@ export function createRecipients({ extract, parseKey, decodeImage }, lanes = 1) 
         })));
       }
       const ranked = found
-        .map(({ candidate: { recipient, id = null, salt }, falsePositive }) => ({ recipient, id, salt, falsePositive, corrected: corrected(falsePositive) }))
-        .sort((a, b) => a.falsePositive - b.falsePositive)
-        .filter(({ corrected: probability }, i) => i === 0 || probability <= DOUBT_PROBABILITY);
+        .map(({ candidate: { recipient, id = null, salt }, falsePositive, corrected }) =>
+          ({ recipient, id, salt, falsePositive, corrected: Math.min(1, corrected) }))
+        .sort((a, b) => a.corrected - b.corrected)
+        .filter(({ corrected }, i) => i === 0 || corrected <= DOUBT_PROBABILITY);
       const [best] = ranked;
       const named = best !== undefined && best.corrected <= MATCH_PROBABILITY;
       const inDoubt = best !== undefined && best.corrected <= DOUBT_PROBABILITY;

@@ -69,7 +69,7 @@ function describe(input, { verdict, recipient, id, falsePositive, method, trials
   if (verdict === 'match') {
     return [
       `${name}: ${painted(process.stdout, 'good', recipient)}`,
-      `  probability of naming this one wrongly: at most ${percent(falsePositive)}, corrected for ${trials} candidates`,
+      `  probability of naming this one wrongly: at most ${percent(falsePositive)}, with ${trials} candidates`,
       `  ${method === 'read' ? 'the mark was read' : 'the mark was too faint to be read and was compared with each candidate\'s'}${id === null ? '' : `, ID ${id}`}`,
       ...copies.map(({ model, output, time }) => `  copy of ${model}, written to ${output} on ${time}`),
       ...candidates.slice(1).map((other) => `  but also ${other.recipient}: ${percent(other.corrected)}`),
