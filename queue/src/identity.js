@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What makes two jobs the same: equal bytes in, key, payload, options and version give equal bytes out, so a job with an
+// id that exists need not be done again. The output's name belongs to it: equal models under two names are two outputs.
+import { createHash } from 'node:crypto';
+import { parseKey } from 'quadmark';
+
+export const sha256 = (bytes) => createHash('sha256').update(bytes).digest('hex');
+
+/** Of a key, for finding it among a worker's keys. Says nothing about the secret, which is 32 random bytes. */
+export async function fingerprint(key) {
+  return sha256(`quadmark key\n${JSON.stringify(await parseKey(key))}`).slice(0, 32);
+}
+
+/** JSON with members in one order, whatever order they were given in. */
+const canonical = (value) => JSON.stringify(value, (name, item) =>
+  (typeof item === 'object' && item !== null && !Array.isArray(item) ? Object.fromEntries(Object.entries(item).sort(([a], [b]) => (a < b ? -1 : 1))) : item));
+
+/** Of a model and its buffers: [model, [uri, buffer], ...] as hashes. */
+export const contentHash = ({ bytes, resources }) =>
+  sha256(canonical([sha256(bytes), ...Object.entries(resources).sort(([a], [b]) => (a < b ? -1 : 1)).map(([uri, buffer]) => [uri, sha256(buffer)])]));
+
+/** @param work  { version, content, key, mark, options, output } */
+export const jobIdOf = (work) => `m${sha256(canonical(work)).slice(0, 40)}`;
+
+/** Of a run: the same jobs and the same report are the same run. */
+export const runIdOf = (jobIds, report) => `r${sha256(canonical([[...jobIds].sort(), report])).slice(0, 40)}`;
