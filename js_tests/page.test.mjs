@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The page finds marks: drop a model and a key, see the verdict, the probability and the picture.
 import assert from 'node:assert/strict';
+import { existsSync, readFileSync } from 'node:fs';
 import { readFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
+import { brotliCompressSync } from 'node:zlib';
 import { createKey, embed, extract } from 'quadmark';
 import { attack } from 'quadmark/lab';
-import { assertPicture, assertQuiet, drop, markedSculpture, onDisk, openPage, picture, screenshot, shown, startBrowser, waitFor } from './page_helpers.mjs';
+import { assertPicture, assertQuiet, drop, markedSculpture, onDisk, openPage, pageRoot, picture, screenshot, shown, startBrowser, waitFor } from './page_helpers.mjs';
 import { realModel, repository } from './support/files.mjs';
 import { splitGlb } from './support/gltf.mjs';
 import { logo, logoPng } from './support/marks.mjs';
@@ -20,6 +22,18 @@ test('the page loads quietly, and nothing is asked of any other origin', async (
   assert.equal(await page.locator('#check').isDisabled(), true);
   await screenshot(page, '01-idle');
   assertQuiet(seen, browser.url);
+});
+
+test('a first visit fetches at most 450 kB up to its verdict', async (t) => {
+  const { page, seen } = await openPage(t, browser);
+  await drop(page, onDisk(t, { 'sculpture.glb': marked, 'key.json': key }).paths);
+  await waitFor(page, 'match');
+  const names = new Set(seen.requests.map((url) => new URL(url).pathname.slice(1) || 'index.html').filter((name) => existsSync(join(pageRoot, name))));
+  assert.ok(names.size >= 5, [...names].join());
+  const sizes = [...names].filter((name) => !/scene-|worker-/.test(name)).map((name) => brotliCompressSync(readFileSync(join(pageRoot, name))).length);
+  const total = sizes.reduce((a, b) => a + b, 0);
+  t.diagnostic(`${names.size} files, ${total} bytes after brotli`);
+  assert.ok(total <= 450e3, `${total} bytes`);
 });
 
 test('a marked GLB and its key, dropped together, give a match and the exact picture', async (t) => {

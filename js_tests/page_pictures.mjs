@@ -4,14 +4,34 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { deflateSync, inflateSync } from 'node:zlib';
-import { startBrowser, waitFor } from './page_helpers.mjs';
+import { startBrowser, waitFor, waitForView } from './page_helpers.mjs';
 import { repository } from './support/files.mjs';
 import { chunk, SIGNATURE } from './support/png.mjs';
 
+const verify = (sample, state) => async (page) => {
+  await page.locator(`[data-sample="${sample}"]`).click();
+  await waitFor(page, state);
+  await waitForView(page);
+};
+
+/** Hides the emblem in the unmarked sample and shows what moved. */
+async function mark(page) {
+  await page.locator('#tab-mark').click();
+  await page.locator('#mark-model-input').setInputFiles(join(samples, 'unmarked.glb'));
+  await page.locator('#logo-input').setInputFiles(join(samples, 'logo.png'));
+  await page.locator('#owner-input').fill('Example Studio');
+  await page.locator('#mark-button:enabled').click();
+  await page.waitForFunction(() => document.getElementById('mark-outcome').dataset.state === 'done');
+  await waitForView(page, 'compare');
+  await page.locator('#compare label').nth(1).click();
+}
+
+const samples = join(repository, 'web/samples');
 const PICTURES = [
-  { name: 'page.png', sample: 'damaged', state: 'match', colorScheme: 'light', width: 1040 },
-  { name: 'page-dark.png', sample: 'marked', state: 'match', colorScheme: 'dark', width: 1040 },
-  { name: 'page-none.png', sample: 'unmarked', state: 'none', colorScheme: 'light', width: 1040 },
+  { name: 'page.png', show: verify('damaged', 'match'), width: 1040 },
+  { name: 'page-mark.png', show: mark, width: 1040 },
+  { name: 'page-none.png', show: verify('wrong', 'none'), colorScheme: 'dark', width: 1040 },
+  { name: 'page-phone.png', show: verify('marked', 'match'), language: 'de', width: 390 },
 ];
 
 /** Pixels of a browser's screenshot, 8-bit RGB or RGBA without interlacing, as RGB. */
@@ -39,27 +59,47 @@ function decode(png) {
   return { width, height, rgb };
 }
 
-/** The same picture with at most 256 colours: text on flat ground needs no more, and takes a quarter of the bytes. */
+const parts = (colour) => [colour >> 16, (colour >> 8) & 255, colour & 255];
+
+/** Colours as [colour, count] in up to `most` boxes of like ones: the largest box is cut in its middle, again and again. */
+function boxesOf(colours, most) {
+  const measure = (members) => {
+    const spans = [0, 1, 2].map((c) => {
+      const values = members.map(([colour]) => parts(colour)[c]);
+      return values.reduce((a, b) => Math.max(a, b)) - values.reduce((a, b) => Math.min(a, b));
+    });
+    const widest = spans.indexOf(Math.max(...spans));
+    return { members, widest, size: spans[widest] * Math.sqrt(members.reduce((sum, [, count]) => sum + count, 0)) };
+  };
+  const boxes = [measure(colours)];
+  while (boxes.length < most) {
+    const largest = boxes.reduce((best, box) => (box.size > best.size ? box : best));
+    if (largest.size === 0) break;
+    const sorted = largest.members.toSorted((a, b) => parts(a[0])[largest.widest] - parts(b[0])[largest.widest] || a[0] - b[0]);
+    const half = sorted.reduce((sum, [, count]) => sum + count, 0) / 2;
+    let cut = 0, below = 0;
+    while (cut < sorted.length - 1 && below < half) below += sorted[cut++][1];
+    boxes.splice(boxes.indexOf(largest), 1, measure(sorted.slice(0, cut)), measure(sorted.slice(cut)));
+  }
+  return boxes.map(({ members }) => members);
+}
+
+/** The same picture with at most 256 colours, which takes a third of the bytes. */
 function encode({ width, height, rgb }) {
   const count = new Map();
   for (let i = 0; i < rgb.length; i += 3) {
     const colour = rgb.readUIntBE(i, 3);
     count.set(colour, (count.get(colour) ?? 0) + 1);
   }
-  const palette = [...count].sort((a, b) => b[1] - a[1] || a[0] - b[0]).slice(0, 256).map(([colour]) => colour);
-  const parts = (colour) => [colour >> 16, (colour >> 8) & 255, colour & 255];
-  const nearest = new Map(palette.map((colour, index) => [colour, index]));
-  const find = (colour) => {
-    if (!nearest.has(colour)) {
-      const [r, g, b] = parts(colour);
-      const distance = (other) => parts(other).reduce((sum, v, i) => sum + (v - [r, g, b][i]) ** 2, 0);
-      nearest.set(colour, palette.reduce((best, other, i) => (distance(other) < distance(palette[best]) ? i : best), 0));
-    }
-    return nearest.get(colour);
-  };
+  const nearest = new Map();
+  // A box is shown by its commonest colour, so that flat grounds keep theirs.
+  const palette = boxesOf([...count], 256).map((members, index) => {
+    for (const [colour] of members) nearest.set(colour, index);
+    return members.reduce((best, entry) => (entry[1] > best[1] ? entry : best))[0];
+  });
   const rows = Buffer.alloc(height * (width + 1));
   for (let y = 0; y < height; ++y) {
-    for (let x = 0; x < width; ++x) rows[y * (width + 1) + 1 + x] = find(rgb.readUIntBE((y * width + x) * 3, 3));
+    for (let x = 0; x < width; ++x) rows[y * (width + 1) + 1 + x] = nearest.get(rgb.readUIntBE((y * width + x) * 3, 3));
   }
   const header = Buffer.alloc(13);
   header.writeUInt32BE(width, 0);
@@ -74,13 +114,14 @@ try {
   const { context, url } = await startBrowser((end) => endings.push(end));
   const folder = join(repository, 'docs/images');
   mkdirSync(folder, { recursive: true });
-  for (const { name, sample, state, colorScheme, width } of PICTURES) {
+  for (const { name, show, colorScheme = 'light', language = 'en', width } of PICTURES) {
     const page = await context.newPage();
     await page.emulateMedia({ colorScheme });
     await page.setViewportSize({ width, height: 700 });
     await page.goto(url);
-    await page.locator(`[data-sample="${sample}"]`).click();
-    await waitFor(page, state);
+    if (language === 'de') await page.locator('#language').click();
+    await show(page);
+    await page.waitForTimeout(1500);  // for the drawing to come to rest
     await page.mouse.move(0, 0);
     await page.evaluate(() => document.activeElement.blur());
     const png = encode(decode(await page.screenshot({ fullPage: true })));

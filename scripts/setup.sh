@@ -151,6 +151,8 @@ if [ $want_browser = yes ] && [ -z "$browser" ]; then
     browser=$(find_browser)
   fi
   [ -n "$browser" ] || fail "no working Chromium; set QUADMARK_CHROMIUM or use --no-browser"
+  # Firefox too, on a screen of its own for WebGL; elsewhere its tests say that they did not run.
+  if [ "$distribution" = debian ]; then install_packages firefox-esr xvfb libgl1-mesa-dri; fi
 fi
 
 # 5. Sources of what wasm needs and the distribution compiles natively alone: its own source packages, fetched by apt

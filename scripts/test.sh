@@ -87,14 +87,14 @@ if [ $wasm = yes ]; then
   step "the same tests as wasm under Node" wasm_tests
   step "package, command line and parity" package_tests
   if compgen -G 'js_tests/page*.test.mjs' >/dev/null; then
-    step "page in Chromium" page_tests
+    step "page in Chromium and Firefox" page_tests
   else
-    skip "page in Chromium" "js_tests/page*.test.mjs does not exist"
+    skip "page in Chromium and Firefox" "js_tests/page*.test.mjs does not exist"
   fi
 else
   skip "the same tests as wasm under Node" "not built"
   skip "package, command line and parity" "not built"
-  skip "page in Chromium" "not built"
+  skip "page in Chromium and Firefox" "not built"
 fi
 if [ $quick = no ]; then
   if step "build with sanitizers" build_asan; then step "native tests with sanitizers" asan_tests; else skip "native tests with sanitizers" "not built"; fi

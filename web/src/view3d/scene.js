@@ -49,11 +49,12 @@ export class ModelScene {
   #split = null;
 
   /**
-   * @param canvas  on screen or off
-   * @param models  one or two (before, after) lists of pieces, each with `colours` or null
+   * @param canvas   on screen or off
+   * @param context  its WebGL 2 context: Firefox gives it out once
+   * @param models   one or two (before, after) lists of pieces, each with `colours` or null
    */
-  constructor(canvas, models) {
-    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+  constructor(canvas, context, models) {
+    this.#renderer = new WebGLRenderer({ canvas, context });
     this.#groups = models.map((pieces) => {
       const group = new Group();
       for (const piece of pieces) group.add(meshOf(piece, piece.colours));

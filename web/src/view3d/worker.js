@@ -61,13 +61,14 @@ function colourDifference(before, after) {
 
 async function open(request) {
   canvas = request.canvas;
-  if (!canvas.getContext('webgl2', { antialias: true, alpha: true })) throw new NotDrawable('noWebgl');
+  const context = canvas.getContext('webgl2', { antialias: true, alpha: true });
+  if (!context) throw new NotDrawable('noWebgl');
   const first = await read(request);
   const second = request.after ? await read(request.after) : null;
   const most = second ? colourDifference(first, second) : 0;
   const coloured = second !== null || colourEvidence(first, request.evidence);
   const { ModelScene } = await import('./scene.js');
-  scene = new ModelScene(canvas, (second ? [first, second] : [first]).map(({ pieces }) => pieces));
+  scene = new ModelScene(canvas, context, (second ? [first, second] : [first]).map(({ pieces }) => pieces));
   scene.setSize(request.width, request.height, request.pixelRatio);
   scene.setColoured(coloured && !second);
   if (second) scene.setSplit(0.5);
