@@ -9,6 +9,7 @@ import { Queue } from 'bullmq';
 import { createKey, embed } from 'quadmark';
 import { generate } from 'quadmark/lab';
 import { connect, enqueue, fromFolder, runStatus, status } from 'quadmark-queue';
+import { randomNumbers } from './random.mjs';
 import { startWorkerProcess } from './redis.mjs';
 import { until } from './server.mjs';
 
@@ -38,17 +39,6 @@ export async function expectedOutputs(inRoot, key, id) {
   const outputs = {};
   for (const { input } of await fromFolder(inRoot)) outputs[input] = (await embed(readFileSync(join(inRoot, input)), { key, id })).bytes;
   return outputs;
-}
-
-/** Numbers from 0 to 1, the same for the same seed. */
-export function randomNumbers(seed) {
-  let state = seed >>> 0 || 1;
-  return () => {
-    state ^= state << 13;
-    state ^= state >>> 17;
-    state ^= state << 5;
-    return (state >>> 0) / 2 ** 32;
-  };
 }
 
 /** Ids of the processes that `pid` has started; none when it has ended. */
