@@ -9,6 +9,8 @@ import * as lab from 'quadmark/lab';
 import * as quadmark from 'quadmark';
 import * as gltfTransform from 'quadmark/gltf-transform';
 import * as recipients from 'quadmark/recipients';
+import * as queue from 'quadmark-queue';
+import * as server from 'quadmark-server';
 import * as vitePlugin from 'quadmark/vite';
 import { repository, run, temporaryFolder } from './support/files.mjs';
 
@@ -42,6 +44,8 @@ test('the types declare exactly what the modules export', () => {
   assert.deepEqual(declaredValues(join(repository, 'node/src/recipient_files.d.ts')), Object.keys(recipients).sort());
   assert.deepEqual(declaredValues(join(repository, 'node/src/gltf_transform/index.d.ts')), Object.keys(gltfTransform).sort());
   assert.deepEqual(declaredValues(join(repository, 'node/src/vite/index.d.ts')), Object.keys(vitePlugin).sort());
+  assert.deepEqual(declaredValues(join(repository, 'server/src/index.d.ts')), Object.keys(server).sort());
+  assert.deepEqual(declaredValues(join(repository, 'queue/src/index.d.ts')), Object.keys(queue).sort());
 });
 
 test('the types know every error code', () => {

@@ -10,7 +10,7 @@ export const manifest = JSON.parse(readFileSync(join(repository, 'node/package.j
 const npm = (args, cwd) => run('npm', [...args, '--no-audit', '--no-fund'], { cwd });
 
 /** { tarball, names } of a package's folder; the tarball goes to `folder`. */
-async function pack(from, folder) {
+export async function pack(from, folder) {
   const packed = await npm(['pack', '--json', '--pack-destination', folder], from);
   assert.equal(packed.status, 0, packed.stderr);
   const [{ filename, files }] = JSON.parse(packed.stdout);

@@ -16,7 +16,9 @@ import { complete } from './options.js';
 import { Pool } from './pool.js';
 import { routeOptions } from './schemas.js';
 
+// A mean over seconds: what it tells is a machine that cannot keep up, not one busy moment.
 const MAX_EVENT_LOOP_DELAY_MS = 2000;
+const PRESSURE_SAMPLE_MS = 5000;
 const HEADERS_TIMEOUT_MS = 10_000;
 const REQUEST_ID = /^[A-Za-z0-9._-]{1,64}$/;
 
@@ -97,6 +99,7 @@ export async function createEndpoint(given) {
   });
   await app.register(underPressure, {
     maxEventLoopDelay: MAX_EVENT_LOOP_DELAY_MS,
+    sampleInterval: PRESSURE_SAMPLE_MS,
     maxRssBytes: options.maxRssBytes,
     pressureHandler: async (request) => {
       if (request.routeOptions.config.operation) throw busy('the server has too much to do');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Types of the package `quadmark-server`.
-import type { LoggerOptions } from 'pino';
+import type { FastifyServerOptions } from 'fastify';
 
 export interface ServerOptions {
   /** Directory of the keys: the key with the id ID is ID.json there. */
@@ -19,8 +19,8 @@ export interface ServerOptions {
   timeLimit?: number;
   /** Resident memory above which requests are refused with 503; 0 = no limit. Default: three quarters of the machine's. */
   maxRssBytes?: number;
-  /** Of pino; false logs nothing. Default: one line per answer on standard output. */
-  logger?: boolean | (LoggerOptions & { stream?: NodeJS.WritableStream });
+  /** As fastify takes it; false logs nothing. Default: one line per answer on standard output. */
+  logger?: FastifyServerOptions['logger'];
 }
 
 export const DEFAULTS: Readonly<Required<Omit<ServerOptions, 'keys'>>>;
