@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Chromium for tests: the one scripts/setup.sh found, headless, with a profile of its own.
-import { existsSync } from 'node:fs';
+import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { chromium } from 'playwright-core';
-import { temporaryFolder } from './files.mjs';
 
 const executablePath = process.env.QUADMARK_CHROMIUM || '/usr/bin/chromium';
 
@@ -16,13 +17,18 @@ export const noChromium = existsSync(executablePath)
  * @param webgl  whether pages may draw with WebGL, by software
  */
 export async function openChromium(t, { webgl = false } = {}) {
-  const context = await chromium.launchPersistentContext(temporaryFolder(t), {
+  const profile = mkdtempSync(join(tmpdir(), 'quadmark-chromium-'));
+  const context = await chromium.launchPersistentContext(profile, {
     executablePath,
     headless: true,
     args: ['--headless', '--no-sandbox', '--disable-quic', '--disable-dev-shm-usage', '--no-first-run',
       '--disable-background-networking', '--disable-component-update', '--disable-sync',
       ...(webgl ? ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-gpu'])],
   });
-  t.after(() => context.close());
+  // In this order: a hook that fails on a profile still being written would keep the browser, and the test, from ending.
+  t.after(async () => {
+    await context.close();
+    rmSync(profile, { recursive: true, force: true, maxRetries: 10, retryDelay: 100 });
+  });
   return context;
 }

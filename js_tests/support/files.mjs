@@ -13,7 +13,7 @@ export const cliFile = join(repository, 'node/src/cli/main.js');
 /** A fresh folder that goes when the test `t` ends. */
 export function temporaryFolder(t) {
   const folder = mkdtempSync(join(tmpdir(), 'quadmark-'));
-  t.after(() => rmSync(folder, { recursive: true, force: true }));
+  t.after(() => rmSync(folder, { recursive: true, force: true, maxRetries: 10, retryDelay: 50 }));
   return folder;
 }
 
