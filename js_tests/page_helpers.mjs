@@ -53,6 +53,8 @@ export async function openPage(t, { context, url }, { path = '' } = {}) {
     if (message.text() === 'Service Worker registration blocked by Playwright') return;
     if (['error', 'warning'].includes(message.type())) seen.trouble.push(`console: ${message.text()}`);
   });
+  // Choosers are caught from here on: begun only when one is expected, a slow machine may open it before that.
+  page.on('filechooser', () => {});
   page.on('pageerror', (error) => seen.trouble.push(`exception: ${error.message}`));
   page.on('requestfailed', (request) => {
     const reason = request.failure()?.errorText;
