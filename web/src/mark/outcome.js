@@ -1,54 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The right-hand side of the marking tab. Only writes to the document.
+// The result of the marking tab. Only writes to the document.
 import { $, announce, element, showFacts, showSentences, Urls } from '../dom.js';
 import { baseName, stemOf } from '../files/paths.js';
+import { Panels } from '../panels.js';
 import { markingRecord } from '../report/record.js';
-import { stageWords } from '../verify/outcome.js';
 import { ViewPanel } from '../view3d/panel.js';
-import { currentLanguage, hasText, scientific, t, tenthWords, wholeWords } from '../words/language.js';
+import { hasText, scientific, t, tenthWords, wholeWords } from '../words/language.js';
 import { oneInSpoken } from '../words/odds.js';
-import { missingWords, problemWords } from '../words/problems.js';
 
-const PANELS = ['idle', 'working', 'problem', 'result'];
 const urls = new Urls();
 const view = new ViewPanel($('compare'));
-
-function show(panel, state = panel) {
-  for (const name of PANELS) $(`mark-${name}`).hidden = name !== panel;
-  $('mark-outcome').dataset.state = state;
-  $('mark-outcome').setAttribute('aria-busy', String(panel === 'working'));
-  if (panel !== 'result') view.close();
-}
-
-export function showIdle(text, { spoken = false } = {}) {
-  $('mark-idle-text').textContent = text;
-  if (spoken) announce(text);
-  show('idle');
-}
-
-export function showWorking(name) {
-  $('mark-working-name').textContent = name;
-  show('working');
-  showProgress({ stage: 'load', done: 0 });
-  announce(`${t('marking')} ${name}`);
-}
-
-export function showProgress({ stage, done }) {
-  $('mark-progress').value = done;
-  $('mark-progress').dataset.stage = stage;
-  $('mark-stage').textContent = `${stageWords(stage)} …`;
-}
-
-export function showProblem(answer, names) {
-  const missing = answer.type === 'missing';
-  const { title, text, hint } = missing ? missingWords(answer.uris, names.model) : problemWords(answer, names);
-  $('mark-problem-title').textContent = title;
-  $('mark-problem-text').textContent = text;
-  $('mark-problem-text').lang = missing ? currentLanguage() : 'en';
-  $('mark-problem-hint').textContent = hint;
-  announce([title, text, hint].join(' '));
-  show('problem', missing ? 'missing' : 'problem');
-}
+export const panels = new Panels('mark-', 'marking', view);
 
 function factsOf({ report, millis, inputs, outputs }) {
   const { distortion } = report;
@@ -93,7 +55,7 @@ export function showResult(result, request, { spoken = true } = {}) {
   showFacts($('mark-facts'), factsOf(result));
   showSentences($('mark-warnings'), result.report.warnings);
   $('mark-warnings').hidden = result.report.warnings.length === 0;
-  show('result', 'done');
+  panels.show('result', 'done');
   const changed = new Map(result.resources.map((file) => [file.name, file.bytes]));
   const after = {
     model: { path: model.path, file: new File([result.bytes], name) },

@@ -8,7 +8,7 @@ import { baseName } from '../files/paths.js';
 import { sortItems, splitStrangers } from '../files/sort.js';
 import { passphraseForm } from '../passphrase.js';
 import { sizeWords, t, wholeWords } from '../words/language.js';
-import { showIdle, showProblem, showProgress, showResult, showWorking } from './outcome.js';
+import { panels, showResult } from './outcome.js';
 import { PayloadForm } from './payload.js';
 
 // How many labels a payload takes, measured on 16 models: IDs from about 230, pictures from about 1000, and those up to
@@ -21,7 +21,7 @@ const measurer = new Engine();  // inspects, meanwhile
 const given = { model: null, parts: [], keyFile: null, derived: null };
 let keyKind = 'new';
 let room = null;   // of inspect()
-let redraw = () => showIdle(t('markIdle'));
+let redraw = () => panels.idle(t('markIdle'));
 
 const showNotices = (sentences) => showSentences($('mark-notices'), sentences);
 const payload = new PayloadForm(() => update(), (sentence) => showNotices([sentence]));
@@ -70,11 +70,11 @@ async function measure() {
   if (answer.type === 'result') {
     room = answer.report;
     payload.propose(roomSide(room));
-    showIdle(t('markIdle'));
+    panels.idle(t('markIdle'));
   } else {
-    showProblem(answer, namesNow());
+    panels.problem(answer, namesNow());
   }
-  redraw = answer.type === 'result' ? () => showIdle(t('markIdle')) : () => showProblem(answer, namesNow());
+  redraw = answer.type === 'result' ? () => panels.idle(t('markIdle')) : () => panels.problem(answer, namesNow());
   update();
 }
 
@@ -113,15 +113,15 @@ async function mark() {
   const request = { job: 'mark', model: given.model, parts: given.parts, key: keyRequest(), payload: payload.value, strength: $('strength').value };
   if (!request.model || typeof request.payload === 'string' || !request.key) return;
   const names = namesNow();
-  showWorking(names.model);
+  panels.working(names.model);
   let answer;
   try {
-    answer = await engine.run(request, showProgress);
+    answer = await engine.run(request, (progress) => panels.progress(progress));
   } catch (error) {
     if (error.name === 'AbortError') return;
     throw error;
   }
-  const draw = (options) => (answer.type === 'result' ? showResult(answer, request, options) : showProblem(answer, names));
+  const draw = (options) => (answer.type === 'result' ? showResult(answer, request, options) : panels.problem(answer, names));
   draw();
   redraw = () => draw({ spoken: false });
 }
@@ -164,7 +164,7 @@ $('mark-form').addEventListener('submit', (event) => {
 });
 $('mark-cancel').addEventListener('click', () => {
   engine.cancel();
-  showIdle(t('markCancelled'), { spoken: true });
-  redraw = () => showIdle(t('markIdle'));
+  panels.idle(t('markCancelled'), { spoken: true });
+  redraw = () => panels.idle(t('markIdle'));
   $('mark-button').focus();
 });

@@ -1,68 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The right-hand side of the verifying tab: idle, working, problem or result. Only writes to the document.
+// The result of the verifying tab. Only writes to the document.
 import { $, announce, element, showFacts, showSentences, Urls } from '../dom.js';
 import { baseName, stemOf } from '../files/paths.js';
+import { Panels } from '../panels.js';
 import { verificationRecord } from '../report/record.js';
 import { ViewPanel } from '../view3d/panel.js';
 import { currentLanguage, hasText, percent, scientific, t, wholeWords } from '../words/language.js';
 import { oneIn, oneInSpoken, verdictWords } from '../words/odds.js';
-import { missingWords, problemWords } from '../words/problems.js';
 import { countOnes, showPictures } from './pictures.js';
-
-const PANELS = ['idle', 'working', 'problem', 'result'];
 
 const urls = new Urls();
 const view = new ViewPanel($('view'));
-let ticking = null;
-
-function show(panel, state = panel) {
-  for (const name of PANELS) $(name).hidden = name !== panel;
-  $('outcome').dataset.state = state;
-  $('outcome').setAttribute('aria-busy', String(panel === 'working'));
-  clearInterval(ticking);
-  if (panel !== 'result') view.close();
-}
-
-export function showIdle(text, { spoken = false } = {}) {
-  $('idle-text').textContent = text;
-  if (spoken) announce(text);
-  show('idle');
-}
-
-export function showWorking(modelName) {
-  $('working-name').textContent = modelName;
-  const started = performance.now();
-  const tick = () => {
-    const seconds = Math.floor((performance.now() - started) / 1000);
-    $('elapsed').textContent = seconds > 0 ? t('seconds', seconds) : '';
-  };
-  show('working');
-  tick();
-  ticking = setInterval(tick, 250);
-  showProgress({ stage: 'load', done: 0 });
-  announce(`${t('checking')} ${modelName}`);
-}
-
-/** What happens now, for a stage of the worker. */
-export const stageWords = (stage) => t(hasText(`stage_${stage}`) ? `stage_${stage}` : 'stage_other');
-
-export function showProgress({ stage, done }) {
-  $('progress').value = done;
-  $('progress').dataset.stage = stage;
-  $('stage').textContent = `${stageWords(stage)} …`;
-}
-
-/** Shows why there is no verdict. @param names  file name by "model", "key" and "reference" */
-export function showProblem(answer, names) {
-  const missing = answer.type === 'missing';
-  const { title, text, hint } = missing ? missingWords(answer.uris, names.model) : problemWords(answer, names);
-  $('problem-title').textContent = title;
-  $('problem-text').textContent = text;
-  $('problem-text').lang = missing ? currentLanguage() : 'en';
-  $('problem-hint').textContent = hint;
-  announce([title, text, hint].join(' '));
-  show('problem', missing ? 'missing' : 'problem');
-}
+export const panels = new Panels('', 'checking', view);
 
 /** "1 in 10^23" for the eye, "to the power of" for the ear. */
 export function oddsElements(falsePositive) {
@@ -136,7 +85,7 @@ export function showResult(result, names, model, { spoken = true } = {}) {
   $('save-report').download = `${stem}.report.json`;
   const date = new Date(record.made).toLocaleString(currentLanguage() === 'de' ? 'de-DE' : 'en-GB', { dateStyle: 'long', timeStyle: 'short' });
   $('print-made').textContent = t('printMade', { date, version: result.toolVersion });
-  show('result', verdict);
+  panels.show('result', verdict);
   view.offer({ kind: 'evidence', name: baseName(model.model.path), ...model, evidence: verdict === 'none' ? new Float32Array() : result.evidence });
   if (!spoken) return;
   $('verdict').focus({ preventScroll: true });

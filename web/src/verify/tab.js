@@ -9,7 +9,7 @@ import { sortItems, splitStrangers } from '../files/sort.js';
 import { passphraseForm } from '../passphrase.js';
 import { openSample } from '../platform/served.js';
 import { sizeWords, t } from '../words/language.js';
-import { showIdle, showProblem, showProgress, showResult, showWorking } from './outcome.js';
+import { panels, showResult } from './outcome.js';
 import { showQueue } from './queue.js';
 
 const SLOTS = ['model', 'key', 'reference'];
@@ -20,7 +20,7 @@ const given = { models: [], key: null, reference: null, parts: [] };
 /** The run that is shown: its entries, which one is picked (null: the one that is being checked), and who may go on. */
 let run = { entries: [], picked: null };
 /** How to write the outcome again in another language. */
-let redraw = () => showIdle(waitingWords());
+let redraw = () => panels.idle(waitingWords());
 
 const keyName = () => (given.key ? given.key.label ?? baseName(given.key.item.path) : '');
 const namesFor = (model) => ({ model: baseName(model.path), key: keyName(), reference: given.reference ? baseName(given.reference.path) : '' });
@@ -59,7 +59,7 @@ function waitingWords() {
 
 function showEntry({ model, answer }, options) {
   if (answer.type === 'result') showResult(answer, namesFor(model), { model, parts: given.parts }, options);
-  else showProblem(answer, namesFor(model));
+  else panels.problem(answer, namesFor(model));
   redraw = () => showEntry({ model, answer }, { spoken: false });
 }
 
@@ -73,8 +73,8 @@ function updateQueue() {
 }
 
 function showWaiting(text, options) {
-  showIdle(text, options);
-  redraw = () => showIdle(waitingWords());
+  panels.idle(text, options);
+  redraw = () => panels.idle(waitingWords());
 }
 
 /** Checks everything anew with what the slots hold now. */
@@ -93,13 +93,13 @@ async function check() {
     entry.state = 'working';
     updateQueue();
     const watched = () => now.picked === null;
-    if (watched()) showWorking(baseName(entry.model.path));
-    redraw = () => showWorking(baseName(entry.model.path));
+    if (watched()) panels.working(baseName(entry.model.path));
+    redraw = () => panels.working(baseName(entry.model.path));
     try {
       entry.answer = await engine.run({
         job: 'verify', model: entry.model, parts: given.parts, reference: given.reference?.file ?? null,
         key: given.key.key ? { key: given.key.key } : { file: given.key.item.file },
-      }, (progress) => { if (watched()) showProgress(progress); });
+      }, (progress) => { if (watched()) panels.progress(progress); });
     } catch (error) {
       if (error.name === 'AbortError') return;  // whoever cancelled shows what comes next
       throw error;
