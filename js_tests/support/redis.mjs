@@ -9,7 +9,7 @@ import { run, repository } from './files.mjs';
 import { until } from './server.mjs';
 
 const redisServer = process.env.QUADMARK_REDIS_SERVER ?? 'redis-server';
-export const queueFile = join(repository, 'queue/src/main.js');
+const queueFile = join(repository, 'queue/src/main.js');
 
 /** Whether there is a Redis to test with; scripts/setup.sh sees to that. */
 export const hasRedis = spawnSync(redisServer, ['--version']).status === 0;

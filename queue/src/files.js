@@ -47,7 +47,8 @@ export async function readModel(root, name) {
     try {
       file = inside(dirname(path), decodeURIComponent(uri));
     } catch (cause) {
-      throw new QuadmarkError('unsupported_file', `${name}: external buffer ${JSON.stringify(uri)}: only files beside or below the glTF are read`, { cause });
+      const told = `${name}: external buffer ${JSON.stringify(uri)}: only files beside or below the glTF are read`;
+      throw new QuadmarkError('unsupported_file', told, { cause });
     }
     resources[uri] = await readInput(file);
     names[uri] = relative(root, file);

@@ -11,13 +11,18 @@ export async function fingerprint(key) {
   return sha256(`quadmark key\n${JSON.stringify(await parseKey(key))}`).slice(0, 32);
 }
 
+const byName = ([a], [b]) => (a < b ? -1 : 1);
+const isPlain = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
+
 /** JSON with members in one order, whatever order they were given in. */
-const canonical = (value) => JSON.stringify(value, (name, item) =>
-  (typeof item === 'object' && item !== null && !Array.isArray(item) ? Object.fromEntries(Object.entries(item).sort(([a], [b]) => (a < b ? -1 : 1))) : item));
+const canonical = (value) =>
+  JSON.stringify(value, (name, item) => (isPlain(item) ? Object.fromEntries(Object.entries(item).sort(byName)) : item));
 
 /** Of a model and its buffers: [model, [uri, buffer], ...] as hashes. */
-export const contentHash = ({ bytes, resources }) =>
-  sha256(canonical([sha256(bytes), ...Object.entries(resources).sort(([a], [b]) => (a < b ? -1 : 1)).map(([uri, buffer]) => [uri, sha256(buffer)])]));
+export const contentHash = ({ bytes, resources }) => {
+  const buffers = Object.entries(resources).sort(byName).map(([uri, buffer]) => [uri, sha256(buffer)]);
+  return sha256(canonical([sha256(bytes), ...buffers]));
+};
 
 /** @param work  { version, content, key, mark, options, output } */
 export const jobIdOf = (work) => `m${sha256(canonical(work)).slice(0, 40)}`;

@@ -57,7 +57,9 @@ async function outputsThere(outRoot, job) {
  * Queues models. Documented in index.d.ts.
  * @return { run, jobs, added, earlier }
  */
-export async function enqueue(redis, { queue, models, inRoot, outRoot, key, mark, options = {}, report, attempts = RETRIES.attempts, backoff = RETRIES.backoff }) {
+export async function enqueue(redis, request) {
+  const { queue, models, inRoot, outRoot, key, mark, options = {}, report } = request;
+  const { attempts = RETRIES.attempts, backoff = RETRIES.backoff } = request;
   checkRoots(inRoot, outRoot);
   if (models.length === 0) throw new QuadmarkError('bad_option', 'there are no models to mark');
   const common = { version: await version(), key: await fingerprint(key), mark: await describeMark(mark), options };

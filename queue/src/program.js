@@ -46,6 +46,9 @@ async function waitForRun(redis, queue, run) {
   }
 }
 
+const describeProgress = (progress) =>
+  (progress?.stage === undefined ? 'begun' : `${progress.stage}, ${Math.round(progress.done * 100)} %`);
+
 const COMMANDS = {
   async add(redis, options, print) {
     const { queue, out: outRoot, key, id, text, image, strength, salt, maxError, maxSlide, report, attempts, backoff } = options;
@@ -86,7 +89,7 @@ const COMMANDS = {
     const { working, ...counts } = found;
     print(found, [
       Object.entries(counts).map(([name, count]) => `${count} ${name}`).join(', '),
-      ...working.map(({ input, progress }) => `  ${input}: ${progress?.stage ?? 'begun'} ${progress?.done === undefined ? '' : `${Math.round(progress.done * 100)} %`}`),
+      ...working.map(({ input, progress }) => `  ${input}: ${describeProgress(progress)}`),
     ].join('\n'));
     return 0;
   },
@@ -121,7 +124,8 @@ export async function run(argv) {
 
   const define = (name, description) => {
     const command = program.command(name).description(description).exitOverride().configureHelp({ helpWidth: 100 })
-      .addOption(new Option('--redis <url>', 'where Redis is: URL or path of a socket; logins belong in the variable').env('QUADMARK_REDIS_URL').default(DEFAULT_REDIS))
+      .addOption(new Option('--redis <url>', 'where Redis is: URL or path of a socket; logins belong in the variable')
+        .env('QUADMARK_REDIS_URL').default(DEFAULT_REDIS))
       .option('--queue <name>', 'name of the queue', DEFAULT_QUEUE)
       .option('--json', 'print JSON objects, one a line (default: sentences)');
     return command.action(async (...given) => {
@@ -153,7 +157,8 @@ export async function run(argv) {
     .option('--id <hex>', '64-bit ID to embed')
     .option('--text <text>', 'text to embed')
     .option('--image <logo.png>', 'picture to embed')
-    .addOption(new Option('--strength <preset>', 'how much the mark may change and withstand (default: standard)').choices(['invisible', 'standard', 'strong']))
+    .addOption(new Option('--strength <preset>', 'how much the mark may change and withstand (default: standard)')
+      .choices(['invisible', 'standard', 'strong']))
     .option('--salt <text>', 'name of the asset, for reading too (default: none)')
     .option('--max-error <share>', 'largest displacement, fraction of the diagonal (default: the strength\'s)', parsePositive)
     .option('--max-slide <share>', 'largest displacement along the surface (default: the strength\'s)', parsePositive)

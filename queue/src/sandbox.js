@@ -7,6 +7,8 @@
 import { fork } from 'node:child_process';
 import { fileURLToPath } from 'node:url';
 
+const PROCESSOR = fileURLToPath(new URL('./processor.js', import.meta.url));
+
 const isAlive = (child) => child.exitCode === null && child.signalCode === null && child.connected;
 
 export class Sandbox {
@@ -29,7 +31,7 @@ export class Sandbox {
       const child = this.#idle.pop();
       if (isAlive(child)) return child;
     }
-    const child = fork(fileURLToPath(new URL('./processor.js', import.meta.url)), [], { env: this.#env, stdio: ['ignore', 'ignore', 'inherit', 'ipc'] });
+    const child = fork(PROCESSOR, [], { env: this.#env, stdio: ['ignore', 'ignore', 'inherit', 'ipc'] });
     this.#all.add(child);
     child.once('exit', () => this.#all.delete(child));
     child.on('error', () => {});  // while idle: 'exit' follows

@@ -23,9 +23,13 @@ const MAX_LOST = 10;
  * Starts a worker. Documented in index.d.ts.
  * @param onDone  called with { input, output, error? } after each model
  */
-export async function startWorker(redis, { queue, inRoot, outRoot, keys, concurrency = 1, lockSeconds = LOCK_SECONDS, timeLimit = TIME_LIMIT_SECONDS, onDone = () => {} }) {
+export async function startWorker(redis, request) {
+  const { queue, inRoot, outRoot, keys, concurrency = 1, onDone = () => {} } = request;
+  const { lockSeconds = LOCK_SECONDS, timeLimit = TIME_LIMIT_SECONDS } = request;
   checkRoots(inRoot, outRoot);
-  if (!(Number.isInteger(concurrency) && concurrency >= 1)) throw new QuadmarkError('bad_option', 'concurrency: expected a whole number from 1');
+  if (!(Number.isInteger(concurrency) && concurrency >= 1)) {
+    throw new QuadmarkError('bad_option', 'concurrency: expected a whole number from 1');
+  }
   const timing = { lockDuration: lockSeconds * 1000, stalledInterval: lockSeconds * 500, maxStalledCount: MAX_LOST };
   const sandbox = new Sandbox({ ...process.env, QUADMARK_QUEUE_WORKER: JSON.stringify({ inRoot, outRoot, keys }) }, timeLimit);
   const mark = async (job) => {

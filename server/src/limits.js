@@ -43,7 +43,7 @@ export class Admission {
 }
 
 /** Why a request was stopped when its client went away: nobody reads this answer, the log counts it as 499. */
-export class ClientGone extends HttpError {
+class ClientGone extends HttpError {
   constructor() {
     super(499, 'aborted', 'the client closed the connection');
   }

@@ -16,7 +16,9 @@ export const OPTIONS = {
   embed: options({
     id: { ...ID, description: `the 64-bit ID to embed, ${ID.description}` },
     text: { ...TEXT, description: `the text to embed, ${TEXT.description}` },
-    strength: { type: 'string', enum: ['invisible', 'standard', 'strong'], description: 'how much the mark may change and withstand (scheme robust)' },
+    strength: {
+      type: 'string', enum: ['invisible', 'standard', 'strong'], description: 'how much the mark may change and withstand (scheme robust)',
+    },
     maxError: { type: 'number', description: 'cap on every displacement, fraction of the diagonal (scheme robust)' },
     maxSlide: { type: 'number', description: 'cap on its part along the surface (scheme robust)' },
     salt: SALT,
