@@ -58,7 +58,7 @@ test('a dropped model and logo are marked, compared and handed out', async (t) =
   assert.deepEqual(Buffer.from((await embed(model, { key, image: logo(24) })).bytes), saved.model.bytes, 'the same bytes as elsewhere');
   const record = JSON.parse(saved.record.bytes);
   assert.ok(validate(record), JSON.stringify(validate.errors));
-  assert.deepEqual(record.parameters, { scheme: 'robust', strength: 'standard', payload: { image: { width: 24, height: 24 } } });
+  assert.deepEqual(record.parameters, { scheme: 'robust', salt: '', strength: 'standard', payload: { image: { width: 24, height: 24 } } });
   assert.doesNotMatch(saved.record.bytes.toString(), /secret/);
   const facts = await page.locator('#mark-facts').innerText();
   for (const fact of [/Signal to noise\s+\d\d\.\d dB/, /Mean displacement \(RMS\), of the diagonal\s+\d/, /Bytes changed\s+[\d,]+/, /Mean change of normals\s+0\.\d°/]) assert.match(facts, fact);
@@ -163,7 +163,7 @@ test('what cannot be marked is said with the place', async (t) => {
   assertQuiet(seen, browser.url);
 });
 
-test('marking can be cancelled; the marked file then verifies on the other tab', async (t) => {
+test('marking can be cancelled; the marked file then verifies on the other tab, under its salt', async (t) => {
   const { page, seen } = await openMark(t);
   const { bytes: large } = await generate({ name: 'sculpture', vertices: 300000, format: 'glb' });
   await page.locator('#payload-kinds label', { hasText: 'ID' }).click();
@@ -177,13 +177,20 @@ test('marking can be cancelled; the marked file then verifies on the other tab',
   assert.equal(await page.locator('#mark-idle-text').innerText(), 'Cancelled. Nothing was marked.');
   await drop(page, onDisk(t, { 'statue.glb': model }).paths);
   await page.waitForFunction(() => document.getElementById('room').textContent.startsWith('20,010'));
+  await page.locator('#mark-form summary', { hasText: 'More' }).click();
+  await page.locator('#mark-salt-input').fill('statue no. 7');
   await page.locator('#mark-button').click();
   await waitForMark(page, 'done');
   const file = await save(page, '#save-model'), key = await save(page, '#save-key');
   await page.locator('#tab-mark').focus();
   await page.keyboard.press('ArrowLeft');
   await drop(page, onDisk(t, { [file.name]: file.bytes, [key.name]: key.bytes }).paths);
+  await waitFor(page, 'none');
+  await page.locator('#verify summary', { hasText: 'More' }).click();
+  await page.locator('#salt-input').fill('statue no. 7');
+  await page.keyboard.press('Enter');
   await waitFor(page, 'match');
+  assert.equal(JSON.parse((await save(page, '#save-report')).bytes).parameters.salt, 'statue no. 7');
   assert.equal(await page.locator('#id-text').innerText(), '0000000000000001');
   assertQuiet(seen, browser.url);
 });

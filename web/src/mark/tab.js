@@ -110,7 +110,10 @@ export async function take(dropped) {
 }
 
 async function mark() {
-  const request = { job: 'mark', model: given.model, parts: given.parts, key: keyRequest(), payload: payload.value, strength: $('strength').value };
+  const request = {
+    job: 'mark', model: given.model, parts: given.parts, key: keyRequest(), payload: payload.value,
+    strength: $('strength').value, salt: $('mark-salt-input').value.trim(),
+  };
   if (!request.model || typeof request.payload === 'string' || !request.key) return;
   const names = namesNow();
   panels.working(names.model);

@@ -18,7 +18,7 @@ export function verificationRecord(result, made) {
   const { verdict, falsePositive, report, millis } = result;
   return {
     ...frame('verification', result, made),
-    parameters: { scheme: report.scheme, reference: result.reference !== null },
+    parameters: { scheme: report.scheme, salt: result.salt, reference: result.reference !== null },
     verdict,
     falsePositive,
     caveat: CAVEAT,
@@ -28,13 +28,13 @@ export function verificationRecord(result, made) {
 }
 
 /** @param result  of the job "mark"; payload: { image } | { id } | { text } */
-export function markingRecord(result, { payload, strength }, made) {
+export function markingRecord(result, { payload, strength, salt }, made) {
   const { report, outputs, millis } = result;
   const told = payload.image ? { image: { width: payload.image.width, height: payload.image.height } } : payload;
   return {
     ...frame('marking', result, made),
     outputs,
-    parameters: { scheme: report.scheme, strength, payload: told },
+    parameters: { scheme: report.scheme, salt, strength, payload: told },
     caveat: CAVEAT,
     millis,
     numbers: report,

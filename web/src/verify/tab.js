@@ -97,7 +97,7 @@ async function check() {
     redraw = () => panels.working(baseName(entry.model.path));
     try {
       entry.answer = await engine.run({
-        job: 'verify', model: entry.model, parts: given.parts, reference: given.reference?.file ?? null,
+        job: 'verify', model: entry.model, parts: given.parts, reference: given.reference?.file ?? null, salt: $('salt-input').value.trim(),
         key: given.key.key ? { key: given.key.key } : { file: given.key.item.file },
       }, (progress) => { if (watched()) panels.progress(progress); });
     } catch (error) {
@@ -215,6 +215,7 @@ passphraseForm($('passphrase'), 'verify', async ({ key, label }) => {
   await check();
 });
 $('check').addEventListener('click', () => check());
+$('salt-input').addEventListener('change', () => check());
 $('print').addEventListener('click', () => print());
 $('cancel').addEventListener('click', () => {
   engine.cancel();

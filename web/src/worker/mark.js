@@ -16,10 +16,10 @@ export async function inspectModel({ model, parts }, progress) {
 }
 
 /**
- * @param request  { model: Item, parts: Item[], key: as openKey takes it, payload: { image } | { id } | { text }, strength }
+ * @param request  { model: Item, parts: Item[], key: as openKey takes it, payload: { image } | { id } | { text }, strength, salt }
  * @return { bytes, resources: [{ name, bytes }] that changed, key: text of the key file, report, inputs, outputs, toolVersion, millis }
  */
-export async function mark({ model, parts, key, payload, strength }, progress) {
+export async function mark({ model, parts, key, payload, strength, salt }, progress) {
   progress('load', 0);
   await attempt('page', load());
   progress('open', 0.05);
@@ -28,6 +28,7 @@ export async function mark({ model, parts, key, payload, strength }, progress) {
   const started = performance.now();
   const options = { onProgress: ({ stage, done }) => progress(stage, 0.1 + 0.85 * done) };
   if (keyObject.scheme === 'robust') options.strength = strength;
+  if (salt) options.salt = salt;
   const about = payload.image ? 'logo' : 'model';
   const result = await attempt('model', embed(bytes, { key: keyObject, ...payload, resources, options }), { picture: about });
   const millis = Math.round(performance.now() - started);

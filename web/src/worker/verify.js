@@ -7,10 +7,10 @@ import { fingerprint } from './hash.js';
 import { openKey } from './keys.js';
 
 /**
- * @param request  { model: Item, parts: Item[], key: as openKey takes it, reference: File | null }
- * @return the result: what extract() returns, and { reference, inputs (for the report), toolVersion, isId, averageConfidence, millis }
+ * @param request  { model: Item, parts: Item[], key: as openKey takes it, reference: File | null, salt: text, possibly empty }
+ * @return the result: what extract() returns, and { reference, salt, inputs (for the report), toolVersion, isId, averageConfidence, millis }
  */
-export async function verify({ model, parts, key, reference }, progress) {
+export async function verify({ model, parts, key, reference, salt }, progress) {
   progress('load', 0);
   await attempt('page', load());
   progress('open', 0.05);
@@ -24,7 +24,7 @@ export async function verify({ model, parts, key, reference }, progress) {
     key: keyObject,
     reference: expected ?? undefined,
     resources,
-    options: { onProgress: ({ stage, done }) => progress(stage, 0.1 + 0.85 * done) },
+    options: { ...(salt && { salt }), onProgress: ({ stage, done }) => progress(stage, 0.1 + 0.85 * done) },
   }));
   const millis = Math.round(performance.now() - started);
   progress('hash', 0.95);
@@ -42,6 +42,7 @@ export async function verify({ model, parts, key, reference }, progress) {
     ...result,
     millis,
     inputs,
+    salt,
     toolVersion: await version(),
     isId: image === null || keyObject.params?.payload === 'id',
     averageConfidence: average,
