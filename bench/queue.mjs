@@ -11,7 +11,7 @@ import { parseArgs } from 'node:util';
 import { version } from 'quadmark';
 import { connect, enqueue, fromFolder, runStatus } from 'quadmark-queue';
 import { repository } from '../js_tests/support/files.mjs';
-import { expectedOutputs, killRun, queueFolders, writeModels } from '../js_tests/support/queue.mjs';
+import { expectedOutputs, killRun, queueFolders, writeKillModels, writeModels } from '../js_tests/support/queue.mjs';
 import { startRedis, startWorkerProcess } from '../js_tests/support/redis.mjs';
 import { until } from '../js_tests/support/server.mjs';
 import { replaceTable, tableOf } from './support/table.mjs';
@@ -76,7 +76,7 @@ async function throughput(redis, count) {
 async function kill(redis, runs) {
   const folders = await queueFolders();
   try {
-    await writeModels(folders.inRoot, 24, 12_000);
+    await writeKillModels(folders.inRoot);
     const expected = await expectedOutputs(folders.inRoot, folders.key, id);
     const total = { models: 0, kills: 0, interrupted: 0, retried: 0 };
     for (let seed = 1; seed <= runs; ++seed) {

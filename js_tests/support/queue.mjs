@@ -58,6 +58,9 @@ function endProcess(pid) {
   }
 }
 
+/** Models for killRun(): enough work that there is something to disturb. */
+export const writeKillModels = (folder) => writeModels(folder, 24, 20_000);
+
 /**
  * Marks all models of a folder by several worker processes while SIGKILL ends one after the other in the middle of their
  * work, workers and the processes in which they mark by turns, and checks that nothing shows of it.
@@ -76,7 +79,11 @@ export async function killRun(redis, { inRoot, key, keys, root }, expected, { id
   const connection = await connect(redis.url);
   const models = new Queue(queue, { connection });
   const running = [];
-  const start = async () => running.push(await startWorkerProcess(redis, { inRoot, outRoot, keys, lock: 1, queue }));
+  const starting = [];
+  const start = () => {
+    starting.push(startWorkerProcess(redis, { inRoot, outRoot, keys, lock: 1, queue }).then((worker) => running.push(worker)));
+    return starting.at(-1);
+  };
   try {
     await Promise.all(Array.from({ length: workers }, start));
     const { run, report } = await enqueue(connection, {
@@ -90,11 +97,12 @@ export async function killRun(redis, { inRoot, key, keys, root }, expected, { id
       const now = await status(connection, queue);
       if (now.completed === names.length) break;  // too late to disturb
       if (now.active === 0) continue;
+      await until(() => running.length > 0, 'there is a worker');
       const victim = running[Math.floor(random() * running.length)];
       if (kill % 2 === 0) {
         await victim.kill();
         running.splice(running.indexOf(victim), 1);
-        await start();
+        start();  // the others work on meanwhile
         ++killed;
       } else {
         const children = childrenOf(victim.process.pid);
@@ -120,6 +128,7 @@ export async function killRun(redis, { inRoot, key, keys, root }, expected, { id
       retried: jobs.filter((job) => job.attemptsMade > 1).length,
     };
   } finally {
+    await Promise.allSettled(starting);
     await Promise.all(running.map((worker) => worker.kill()));
     await models.close();
     connection.disconnect();
