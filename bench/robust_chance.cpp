@@ -19,6 +19,7 @@
 #include "quadmark/lab/generate.h"
 #include "quadmark/random.h"
 #include "quadmark/robust/embedder.h"
+#include "quadmark/robust/demapper.h"
 #include "quadmark/robust/evidence.h"
 #include "quadmark/robust/mesh_source.h"
 
@@ -87,8 +88,8 @@ int main(int argc, char** argv) {
       const Agreement labels = reader.ringAgreement(expected), bits = reader.diamondAgreement(expected, diamondView);
       if (labels.votes >= kLeastVotes) ring.add(exactExp(logChance(labels)));
       if (bits.votes >= kLeastVotes) diamonds.add(exactExp(logChance(bits)));
-      ringBound.add(exactExp(logChance(reader.headRatios(ringView), expected.head)));
-      diamondBound.add(exactExp(logChance(reader.headRatios(diamondView), expected.head)));
+      ringBound.add(exactExp(logChance(Demapper(reader.headBits(ringView)).ratios(), expected.head)));
+      diamondBound.add(exactExp(logChance(Demapper(reader.headBits(diamondView)).ratios(), expected.head)));
       if (!search) continue;
       MeshSource source(reader);
       const auto reading = readMark(source, {.keys = keys, .expected = Payload{id}});

@@ -30,7 +30,7 @@ using namespace quadmark::robust;
 // What an attacker sees of a model.
 struct View {
   std::vector<double> gaps;       ///< of all diamonds, of the diagonal
-  std::vector<double> ratios[2];  ///< folded, of the same
+  std::vector<double> ratios[2];  ///< of the same
   std::vector<double> rings[2];   ///< coordinates of all vertices that have a name, ring radii
 };
 
@@ -43,8 +43,8 @@ View viewOf(const Mesh& mesh) {
   for (const Diamond& q : collectDiamonds(surface)) {
     if (!diamondShape(positions, q, s)) continue;
     view.gaps.push_back(s.gapLength / diagonal);
-    view.ratios[0].push_back(folded(s.alongEdge));
-    view.ratios[1].push_back(folded(s.alongSpan));
+    view.ratios[0].push_back(ratiosOf(s).edge);
+    view.ratios[1].push_back(ratiosOf(s).span);
   }
   const Labels labels = refineLabels(surface);
   const SymmetricTensor tensor = edgeTensor(surface, positions);

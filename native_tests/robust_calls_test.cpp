@@ -121,7 +121,7 @@ Mesh beside(Mesh left, const Mesh& right, double shift) {
 TEST(RobustCalls, FindTheMarkedObjectAmongOthers) {
   const auto parsed = readModel(marked());
   ASSERT_TRUE(parsed);
-  const Mesh worn = simplifyMeshopt((*parsed)->mesh(), 0.75);
+  const Mesh worn = simplifyMeshopt((*parsed)->mesh(), 0.65);
   Mesh scene = machinedPart(20000);
   for (int i = 1; i <= 2; ++i) scene = beside(std::move(scene), machinedPart(20000, 7), 4.0 * i);
   const std::size_t others = scene.vertexCount();

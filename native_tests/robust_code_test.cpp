@@ -164,20 +164,20 @@ TEST(PosteriorRatios, AreThoseOfAllCodewordsTogether) {
       std::vector<float> ratios(code->rate() * kBits);
       for (float& r : ratios) r = static_cast<float>(gaussian(random));
       const std::vector<float> posterior = posteriorRatios(*code, ratios);
-      std::vector<double> zero(kBits, 0), one(kBits, 0);
+      std::vector<double> zero(ratios.size(), 0), one(ratios.size(), 0);
       for (const Bits& codeword : codewords) {
         const double likelihood = std::exp(metric(codeword, ratios) / 2);
-        for (std::uint32_t i = 0; i < kBits; ++i)
-          (codeword[i * code->rate()] != 0 ? one : zero)[i] += likelihood;
+        for (std::size_t i = 0; i < ratios.size(); ++i) (codeword[i] != 0 ? one : zero)[i] += likelihood;
       }
-      for (std::uint32_t i = 0; i < kBits; ++i) {
+      ASSERT_EQ(posterior.size(), ratios.size());
+      for (std::size_t i = 0; i < ratios.size(); ++i) {
         const double exact = std::log(zero[i] / one[i]);
-        error += std::abs(exact - posterior[i]) / (kTrials * kBits);
+        error += std::abs(exact - posterior[i]) / (kTrials * static_cast<double>(ratios.size()));
         signs += (exact < 0) == (posterior[i] < 0) ? 1 : 0;
       }
     }
     // The wrap-around makes it approximate at a dozen bits, where the register is nearly as long as the word.
-    EXPECT_GE(signs, kTrials * kBits * 85 / 100) << "rate 1/" << code->rate();
+    EXPECT_GE(signs, kTrials * static_cast<int>(kBits * code->rate()) * 85 / 100) << "rate 1/" << code->rate();
     EXPECT_LT(error, 1.0);
   }
 }
@@ -192,7 +192,7 @@ TEST(PosteriorRatios, KnowNoLessThanWhatCameIn) {
       const std::vector<float> ratios = noisy(codeword, noise, random), posterior = posteriorRatios(halfRateCode(), ratios);
       for (std::size_t i = 0; i < information.size(); ++i) {
         before += (ratios[2 * i] < 0) != (information[i] != 0) ? 1 : 0;
-        after += (posterior[i] < 0) != (information[i] != 0) ? 1 : 0;
+        after += (posterior[2 * i] < 0) != (information[i] != 0) ? 1 : 0;
       }
     }
     EXPECT_LE(after, before) << "noise " << noise;

@@ -11,6 +11,7 @@
 #include "quadmark/exact_math.h"
 #include "quadmark/lab/attacks.h"
 #include "quadmark/lab/generate.h"
+#include "quadmark/robust/demapper.h"
 #include "quadmark/robust/embedder.h"
 #include "quadmark/robust/evidence.h"
 #include "quadmark/robust/mesh_source.h"
@@ -76,8 +77,8 @@ TEST(RobustFalsePositives, LayersAreCalibrated) {
       diamonds.layers = Layers::diamonds;
       diamonds.diamondSigma = 1.8e-5;
       const double chances[3] = {logChance(reader.ringAgreement(expected)),
-                                 logChance(reader.headRatios(ring), expected.head),
-                                 logChance(reader.headRatios(diamonds), expected.head)};
+                                 logChance(Demapper(reader.headBits(ring)).ratios(), expected.head),
+                                 logChance(Demapper(reader.headBits(diamonds)).ratios(), expected.head)};
       for (std::size_t i = 0; i < 3; ++i) {
         below[i][0] += exactExp(chances[i]) <= 0.1 ? 1 : 0;
         below[i][1] += exactExp(chances[i]) <= 0.01 ? 1 : 0;

@@ -83,7 +83,7 @@ TEST(RobustPayload, DescribesBodiesOfEverySizeAndRate) {
       EXPECT_EQ(shape->strength, 2);
       EXPECT_EQ(bodyCode(*shape).bits, coded.body.size());
       EXPECT_EQ(bodyCode(*shape).generator, coded.bodyGenerator);
-      const BodyReading reading = decodeBody(*shape, certain(coded.body), keys);
+      const BodyReading reading = decodeBody(*shape, {certain(coded.body)}, keys);
       EXPECT_TRUE(reading.exact);
       EXPECT_EQ(reading.bits, image.bits) << width << " x " << height;
     }
@@ -99,7 +99,7 @@ TEST(RobustPayload, CarriesTextsInBodies) {
   ASSERT_TRUE(shape);
   EXPECT_EQ(shape->kind, PayloadKind::text);
   EXPECT_EQ(shape->bits(), 8 * text.size());
-  const BodyReading reading = decodeBody(*shape, certain(coded.body), keys);
+  const BodyReading reading = decodeBody(*shape, {certain(coded.body)}, keys);
   EXPECT_TRUE(reading.exact);
   EXPECT_EQ(reading.bits, bits->body);
 }
@@ -182,7 +182,7 @@ TEST(DecodeBody, DegradesGracefully) {
   const auto shape = bodyShape(bits->frame);
   double previous = -1;
   for (const double deviation : {0.6, 1.4, 2.0, 3.0, 5.0}) {
-    const BodyReading reading = decodeBody(*shape, noisy(coded.body, deviation, random), keys);
+    const BodyReading reading = decodeBody(*shape, {noisy(coded.body, deviation, random)}, keys);
     double wrong = 0, sure = 0, sureWrong = 0;
     for (std::size_t i = 0; i < reading.bits.size(); ++i) {
       const bool isWrong = reading.bits[i] != image.bits[i];
@@ -211,9 +211,9 @@ TEST(DecodeBody, SaysExactOnlyWhereTheTagIsRight) {
   const CodedPayload coded = encode(*bits, keys);
   const auto shape = bodyShape(bits->frame);
   std::vector<float> ratios = certain(coded.body);
-  EXPECT_TRUE(decodeBody(*shape, ratios, keys).exact);
+  EXPECT_TRUE(decodeBody(*shape, {ratios}, keys).exact);
   ratios[20] = -ratios[20];
-  const BodyReading damaged = decodeBody(*shape, ratios, keys);
+  const BodyReading damaged = decodeBody(*shape, {ratios}, keys);
   EXPECT_FALSE(damaged.exact);
   EXPECT_NE(damaged.bits[20], image.bits[20]);
 }

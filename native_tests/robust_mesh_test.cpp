@@ -8,6 +8,7 @@
 #include "fixtures.h"
 #include "quadmark/metrics.h"
 #include "quadmark/random.h"
+#include "quadmark/robust/demapper.h"
 #include "quadmark/robust/embedder.h"
 #include "quadmark/robust/reader.h"
 #include "robust_geometry_keys.h"
@@ -47,9 +48,9 @@ double bestErrorRate(const Mesh& mesh, const CodedPayload& payload, Layers layer
   MeshReader reader(mesh, keys, payload.headCode());
   double best = 1;
   for (const Hypothesis& h : MeshReader::hypotheses({.trySplit = payload.hasBody()}))
-    if (h.layers == layers && h.sharpening == 0 &&
+    if (h.layers == layers && h.sharpening == 0 && !h.mirrored &&
         h.sharing == (payload.hasBody() ? Sharing::split : Sharing::headOnly))
-      best = std::min(best, errorRate(reader.headRatios(h), payload.head));
+      best = std::min(best, errorRate(Demapper(reader.headBits(h)).ratios(), payload.head));
   return best;
 }
 
@@ -86,9 +87,38 @@ TEST(RobustMesh, ABodyIsReadBesideItsHead) {
   EXPECT_LT(bestErrorRate(copy, payload, Layers::ring), 0.12);
   MeshReader reader(copy, keysOf(1), payload.headCode());
   const Hypothesis ring{Layers::ring, Sharing::split, 0, 1e-4, 0, 0, 1};
-  EXPECT_LT(errorRate(reader.bodyRatios(ring, payload.bodyCode()), payload.body), 0.12);
+  EXPECT_LT(errorRate(Demapper(reader.bodyBits(ring, payload.bodyCode())).ratios(), payload.body), 0.12);
   // Without the body's length nothing of it is claimed.
-  EXPECT_TRUE(reader.bodyRatios(ring, {}).empty());
+  EXPECT_TRUE(reader.bodyBits(ring, {}).single.empty());
+}
+
+// Baking a node of negative scale into its mesh mirrors it and turns its faces over, so that they look outward again.
+TEST(RobustMesh, MirroredCopiesAreReadWhateverBecameOfTheirWinding) {
+  const CodedPayload payload = payloadOf(7);
+  Mesh mirrored = marked(lab::sculpture(8000), payload);
+  for (std::size_t i = 0; i < mirrored.positions.size(); i += 3) mirrored.positions[i] *= -1;
+  EXPECT_LT(bestErrorRate(mirrored, payload, Layers::ring), 0.1);
+  EXPECT_LT(bestErrorRate(mirrored, payload, Layers::diamonds), 0.1);
+  for (std::size_t f = 0; f < mirrored.faceCount(); ++f)
+    std::reverse(mirrored.faceVertices.begin() + mirrored.faceBegin(f), mirrored.faceVertices.begin() + mirrored.faceEnd(f));
+  EXPECT_GT(bestErrorRate(mirrored, payload, Layers::ring), 0.4);
+  EXPECT_GT(bestErrorRate(mirrored, payload, Layers::diamonds), 0.4);
+  MeshReader reader(mirrored, keysOf(1), payload.headCode());
+  double best[2] = {1, 1};
+  int tried = 0;
+  for (const Hypothesis& h : MeshReader::hypotheses({.trySplit = false})) {
+    if (!h.mirrored) continue;
+    double& least = best[h.layers == Layers::diamonds];
+    least = std::min(least, errorRate(Demapper(reader.headBits(h)).ratios(), payload.head));
+    ++tried;
+  }
+  EXPECT_EQ(tried, 8);
+  EXPECT_LT(best[0], 0.1);
+  EXPECT_LT(best[1], 0.1);
+  // Turning back gives what was there before.
+  const Hypothesis ring{Layers::ring, Sharing::headOnly, 0, 1e-4};
+  MeshReader fresh(mirrored, keysOf(1), payload.headCode());
+  EXPECT_EQ(reader.headBits(ring).single, fresh.headBits(ring).single);
 }
 
 TEST(RobustMesh, QuadsAreReadAsQuadsAndCut) {
@@ -112,15 +142,15 @@ TEST(RobustMesh, SearchStopsWhereTheCallerAcceptsAndCountsWhatItTried) {
   const Mesh copy = marked(lab::sculpture(4000), payload);
   MeshReader reader(copy, keysOf(1), payload.headCode());
   std::uint32_t calls = 0;
-  EXPECT_TRUE(reader.search({}, [&](std::span<const float> head, const Hypothesis& h) {
-    EXPECT_EQ(head.size(), 276u);
+  EXPECT_TRUE(reader.search({}, [&](const SoftBits& head, const Hypothesis& h) {
+    EXPECT_EQ(head.single.size(), 276u);
     EXPECT_EQ(h.number, ++calls);
     return calls == 12;
   }));
   EXPECT_EQ(calls, 12u);
   calls = 0;
   MeshReader again(copy, keysOf(1), payload.headCode());
-  EXPECT_FALSE(again.search({}, [&](std::span<const float>, const Hypothesis&) { return ++calls == 0; }));
+  EXPECT_FALSE(again.search({}, [&](const SoftBits&, const Hypothesis&) { return ++calls == 0; }));
   EXPECT_EQ(calls, MeshReader::hypotheses({}).size());
 }
 

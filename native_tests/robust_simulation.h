@@ -36,14 +36,14 @@ inline std::vector<float> noisy(const std::vector<std::uint8_t>& codeword, doubl
 }
 
 /// Hypotheses of which one fits the mark (if there is one); the others give noise.
-class SimulatedSource : public RatioSource {
+class SimulatedSource : public BitSource {
  public:
   SimulatedSource(std::optional<CodedPayload> mark, double deviation, std::uint64_t seed)
       : mark_(std::move(mark)), deviation_(deviation), seed_(seed) {}
 
   bool search(const AcceptHead& accept) override {
     for (const Hypothesis& h : plan())
-      if (accept(headRatios(h), h)) return true;
+      if (accept(headBits(h), h)) return true;
     return false;
   }
   [[nodiscard]] std::vector<Hypothesis> plan() const override {
@@ -54,18 +54,18 @@ class SimulatedSource : public RatioSource {
     }
     return all;
   }
-  std::vector<float> headRatios(const Hypothesis& h) override {
+  SoftBits headBits(const Hypothesis& h) override {
     const bool fits = mark_ && rightHypothesis(h);
-    return ratios(fits ? mark_->head : std::vector<std::uint8_t>(headCode().bits), fits, 2 * h.number);
+    return {ratios(fits ? mark_->head : std::vector<std::uint8_t>(headCode().bits), fits, 2 * h.number)};
   }
-  std::vector<float> bodyRatios(const Hypothesis& h, const StreamCode& body) override {
+  SoftBits bodyBits(const Hypothesis& h, const StreamCode& body) override {
     const bool fits = mark_ && rightHypothesis(h) && mark_->body.size() == body.bits;
-    return ratios(fits ? mark_->body : std::vector<std::uint8_t>(body.bits), fits, 2 * h.number + 1);
+    return {ratios(fits ? mark_->body : std::vector<std::uint8_t>(body.bits), fits, 2 * h.number + 1)};
   }
-  Agreement ringAgreement(const CodedPayload& expected, double sharpening) override {
+  Agreement ringAgreement(const CodedPayload& expected, double sharpening, bool mirrored) override {
     Random random(seed_ ^ 0x51 ^ static_cast<std::uint64_t>(sharpening * 1000));
     Agreement out{labels, 0};
-    const bool right = mark_ && expected.head == mark_->head && sharpening == 0;
+    const bool right = mark_ && expected.head == mark_->head && sharpening == 0 && !mirrored;
     for (std::uint32_t i = 0; i < labels; ++i) out.agreeing += random.below(100) < (right ? 80u : 50u) ? 1 : 0;
     return out;
   }

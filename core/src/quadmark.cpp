@@ -137,7 +137,7 @@ robust::ReaderCoverage robustPlaces(const Mesh& mesh, double diagonal) {
   robust::Hypothesis diamonds;  // they are counted when they are first looked at
   diamonds.layers = robust::Layers::diamonds;
   diamonds.diamondSigma = 1e-5;
-  static_cast<void>(reader.headRatios(diamonds));
+  static_cast<void>(reader.headBits(diamonds));
   return reader.coverage();
 }
 

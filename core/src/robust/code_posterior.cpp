@@ -70,17 +70,22 @@ void backward(const Likelihoods& l, std::uint32_t half, const std::vector<float>
   normalise(before);
 }
 
-// log P(output of generator 0 is 0) / P(it is 1) at one step, from the states before and after it.
-float ratioOf(const Likelihoods& l, const Trellis& t, const float* before, const std::vector<float>& after) {
-  double zero = 0, one = 0;
-  for (std::uint32_t j = 0; j < t.half; ++j) {
-    const double same = double{l.same[j]} * (before[2 * j] * after[j] + before[2 * j + 1] * after[j + t.half]);
-    const double complement = double{l.complement[j]} * (before[2 * j] * after[j + t.half] + before[2 * j + 1] * after[j]);
-    zero += t.sign[j] > 0 ? same : complement;
-    one += t.sign[j] > 0 ? complement : same;
+// log P(output is 0) / P(it is 1) of every generator at one step, from the states before and after it.
+void ratiosOf(const Likelihoods& l, const Trellis& t, const float* before, const std::vector<float>& after,
+              float* out) {
+  for (std::uint32_t g = 0; g < t.rate; ++g) {
+    const float* sign = t.sign.data() + std::size_t{g} * t.half;
+    double zero = 0, one = 0;
+    for (std::uint32_t j = 0; j < t.half; ++j) {
+      const double same = double{l.same[j]} * (before[2 * j] * after[j] + before[2 * j + 1] * after[j + t.half]);
+      const double complement =
+          double{l.complement[j]} * (before[2 * j] * after[j + t.half] + before[2 * j + 1] * after[j]);
+      zero += sign[j] > 0 ? same : complement;
+      one += sign[j] > 0 ? complement : same;
+    }
+    constexpr double kTiny = 1e-60;
+    out[g] = static_cast<float>(std::clamp(exactLog(zero + kTiny) - exactLog(one + kTiny), -60.0, 60.0));
   }
-  constexpr double kTiny = 1e-60;
-  return static_cast<float>(std::clamp(exactLog(zero + kTiny) - exactLog(one + kTiny), -60.0, 60.0));
 }
 
 }  // namespace
@@ -111,10 +116,10 @@ std::vector<float> posteriorRatios(const ConvolutionalCode& code, std::span<cons
     backward(likelihoods, trellis.half, from, to);
     from.swap(to);
   }
-  std::vector<float> posterior(steps);
+  std::vector<float> posterior(steps * trellis.rate);
   for (std::size_t step = steps; step-- > 0;) {
     likelihoods.load(step);
-    posterior[step] = ratioOf(likelihoods, trellis, stored.data() + step * states, from);
+    ratiosOf(likelihoods, trellis, stored.data() + step * states, from, posterior.data() + step * trellis.rate);
     backward(likelihoods, trellis.half, from, to);
     from.swap(to);
   }

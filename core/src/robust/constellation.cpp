@@ -30,8 +30,8 @@ std::vector<std::uint32_t> bitOrder(const StreamCode& code, const Prf& prf, std:
 
 Constellation::Constellation(std::uint8_t deltaClass, const RobustKeys& keys, Sharing sharing, const StreamCode& head,
                              const StreamCode& body)
-    : shape_(kDeltas[deltaClass]), groups_((shape_.side * shape_.side) >> shape_.symbol) {
-  std::vector<std::uint32_t> cells(shape_.side * shape_.side);
+    : shape_(kDeltas[deltaClass]), groups_(shape_.groups()) {
+  std::vector<std::uint32_t> cells(shape_.cells());
   std::iota(cells.begin(), cells.end(), 0u);
   keyedShuffle(cells, Prf(keys.constellation), deltaClass);
   meaning_.assign(cells.size(), kNone);

@@ -30,8 +30,8 @@ struct GoodCell {
 // order counts, and a pair is looked at some hundred times per vertex.
 template <class Visit>
 void forEachPair(const Candidate& c, const DeltaClass& shape, const std::vector<GoodCell>& good, const Visit& visit) {
-  const int edgeCell = static_cast<int>(fineCell(c.edgeRatio, shape));
-  const int spanCell = static_cast<int>(fineCell(c.spanRatio, shape));
+  const FineCell own = fineCell(c.edgeRatio, c.spanRatio, shape);
+  const int edgeCell = static_cast<int>(own.edge), spanCell = static_cast<int>(own.span);
   const float shorter = std::min(c.edgeLength, c.spanLength), scale = c.reluctance / shorter;
   const float edgeWeight = kSlideWeight * c.edgeLength * c.edgeLength * scale * scale;
   const float spanWeight = kSlideWeight * c.spanLength * c.spanLength * scale * scale;
@@ -51,9 +51,9 @@ DiamondQueues::DiamondQueues(const std::vector<Candidate>& candidates, const Del
   const std::size_t good = goodCells.size();
   std::vector<GoodCell> cells;
   for (const std::uint32_t cell : goodCells) {
-    const std::uint32_t edge = cell / shape.side, span = cell % shape.side;
-    cells.push_back({static_cast<int>(edge), static_cast<int>(span), static_cast<float>(fineCentre(edge, shape)),
-                     static_cast<float>(fineCentre(span, shape))});
+    const auto [edge, span] = FineCell::ofNumber(cell, shape);
+    cells.push_back({static_cast<int>(edge), static_cast<int>(span), static_cast<float>(edgeCentre(edge, shape)),
+                     static_cast<float>(spanCentre(span, shape))});
   }
 
   // 1. How many pairs of each cost there are, to find each queue's dearest cost.

@@ -12,7 +12,7 @@ namespace quadmark::robust {
 /// A diamond that may become a cell.
 struct Candidate {
   std::uint32_t diamond;
-  float edgeRatio, spanRatio;    ///< folded
+  float edgeRatio, spanRatio;    ///< Ratios
   float edgeLength, spanLength;  ///< file units
   float gap;                     ///< file units
   float reluctance;              ///< factor on the cost: above 1 where simplification would collapse a vertex soon
@@ -34,7 +34,7 @@ class DiamondQueues {
     std::uint32_t begin = 0, far = 0, end = 0;  ///< of entries(): near ones, then far ones
   };
 
-  /// @param goodCells  fine cells (edge cell * side + span cell).
+  /// @param goodCells  FineCell::number of each.
   DiamondQueues(const std::vector<Candidate>& candidates, const DeltaClass& shape,
                 const std::vector<std::uint32_t>& goodCells, std::uint32_t wanted);
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "likelihood.h"
-#include "quadmark/exact_math.h"
 #include "sorting.h"
 
 namespace quadmark::robust {
@@ -53,7 +52,7 @@ DiamondVotes::DiamondVotes(const Surface& surface, const std::vector<double>& po
     DiamondShape shape;
     for (const Diamond& diamond : diamonds) {
       if (!diamondShape(positions, diamond, shape)) continue;
-      if (folded(shape.alongEdge) < kLeastRatio || folded(shape.alongSpan) < kLeastRatio) continue;
+      if (!isUsable(ratiosOf(shape))) continue;
       visit(shape, static_cast<float>(shape.gapLength / shape.gapGain));
     }
   };
@@ -66,14 +65,15 @@ DiamondVotes::DiamondVotes(const Surface& surface, const std::vector<double>& po
   forEach([&](const DiamondShape& shape, float gap) {
     const std::uint32_t i = cursor[sectionOf(gap)]++;
     gap_[i] = gap;
-    edge_[i] = static_cast<float>(folded(shape.alongEdge));
-    span_[i] = static_cast<float>(folded(shape.alongSpan));
+    const Ratios ratios = ratiosOf(shape);
+    edge_[i] = static_cast<float>(ratios.edge);
+    span_[i] = static_cast<float>(ratios.span);
     edgeGain_[i] = static_cast<float>(shape.edgeGain);
     spanGain_[i] = static_cast<float>(shape.spanGain);
-    const auto binOf = [](float ratio) {
-      return std::min(kBins - 1, static_cast<std::uint32_t>((0.5 - ratio) / (0.5 - kLeastRatio) * kBins));
-    };
-    bin_[i] = static_cast<std::uint8_t>(binOf(edge_[i]) * kBins + binOf(span_[i]));
+    constexpr double kBinsPerUnit = kBins / (0.5 - kLeastRatio);
+    const auto edgeBin = static_cast<std::uint32_t>((edge_[i] - kLeastRatio) * kBinsPerUnit);
+    const auto spanBin = static_cast<std::uint32_t>((span_[i] - kLeastRatio) * kBinsPerUnit);
+    bin_[i] = static_cast<std::uint8_t>(std::min(kBins - 1, edgeBin) * 2 * kBins + std::min(2 * kBins - 1, spanBin));
   });
   if (count == 0) return;
   std::vector<float> sorted = gap_;
@@ -83,18 +83,18 @@ DiamondVotes::DiamondVotes(const Surface& surface, const std::vector<double>& po
 
 // Where unmarked diamonds lie in the plane of ratios: those clearly not flat under this noise.
 std::vector<float> DiamondVotes::background(double sigma) const {
-  std::vector<float> bins(kBins * kBins, 1.0f);
-  double total = kBins * kBins;
+  std::vector<float> bins(2 * kBins * kBins, 1.0f);
+  double total = 2 * kBins * kBins;
   const double from = kFarthest * sigma, to = std::max(40 * sigma, scale_);
   for (std::size_t i = 0; i < gap_.size(); ++i)
     if (gap_[i] > from && gap_[i] < to) ++bins[bin_[i]], ++total;
-  for (float& bin : bins) bin = static_cast<float>(std::max(0.2, bin / total * (kBins * kBins)));
+  for (float& bin : bins) bin = static_cast<float>(std::max(0.2, bin / total * (2 * kBins * kBins)));
   return bins;
 }
 
-CellScores DiamondVotes::score(const DeltaClass& shape, double sigma) const {
+CellScores DiamondVotes::score(const DeltaClass& shape, double sigma, double plane) const {
   CellScores out;
-  out.score.assign(shape.side * shape.side, 0.0f);
+  out.score.assign(shape.cells(), 0.0f);
   const auto level = std::lower_bound(limits_.begin(), limits_.end(), kFarthest * sigma) - limits_.begin();
   const std::uint32_t end = sections_[std::min<std::size_t>(level + 1, sections_.size() - 1)];
   if (count() < 8 || end == 0) return out;
@@ -107,16 +107,17 @@ CellScores DiamondVotes::score(const DeltaClass& shape, double sigma) const {
     const double marked = gaussian(z * z) * 2 / (sigma * kRootTwoPi), chance = 1 / (scale_ + gap_[i]);
     return marked / chance / bins[bin_[i]];
   };
-  const auto usable = [&](std::uint32_t i, std::uint32_t& edgeCell, std::uint32_t& spanCell) {
-    edgeCell = fineCell(edge_[i], shape), spanCell = fineCell(span_[i], shape);
-    return edgeCell < shape.side && spanCell < shape.side && edgeGain_[i] * sigma <= kBlurred * shape.delta &&
-           spanGain_[i] * sigma <= kBlurred * shape.delta;
+  const double blur = plane * sigma;
+  const auto usable = [&](std::uint32_t i, FineCell& cell) {
+    cell = fineCell(edge_[i], span_[i], shape);
+    return cell.isIn(shape) && edgeGain_[i] * blur <= kBlurred * shape.delta &&
+           spanGain_[i] * blur <= kBlurred * shape.delta;
   };
   for (std::uint32_t i = 0; i < end; ++i) {
-    std::uint32_t edgeCell, spanCell;
-    if (!usable(i, edgeCell, spanCell)) continue;
-    const Blur edge((0.5 - edge_[i]) / shape.delta, edgeCell, edgeGain_[i], sigma, shape.delta);
-    const Blur span((0.5 - span_[i]) / shape.delta, spanCell, spanGain_[i], sigma, shape.delta);
+    FineCell cell;
+    if (!usable(i, cell)) continue;
+    const Blur edge(edgePlace(edge_[i], shape), cell.edge, edgeGain_[i], blur, shape.delta);
+    const Blur span(spanPlace(span_[i], shape), cell.span, spanGain_[i], blur, shape.delta);
     odds[i] = static_cast<float>(flatness(i) * edge.sum * span.sum);
   }
 
@@ -132,16 +133,16 @@ CellScores DiamondVotes::score(const DeltaClass& shape, double sigma) const {
   // 3. Votes for the nearest fine cells.
   const double prior = share / (1 - share) * (1u << shape.symbol);
   for (std::uint32_t i = 0; i < end; ++i) {
-    std::uint32_t edgeCell, spanCell;
-    if (prior * odds[i] < 0.003 || !usable(i, edgeCell, spanCell)) continue;
-    const Blur edge((0.5 - edge_[i]) / shape.delta, edgeCell, edgeGain_[i], sigma, shape.delta);
-    const Blur span((0.5 - span_[i]) / shape.delta, spanCell, spanGain_[i], sigma, shape.delta);
+    FineCell cell;
+    if (prior * odds[i] < 0.003 || !usable(i, cell)) continue;
+    const Blur edge(edgePlace(edge_[i], shape), cell.edge, edgeGain_[i], blur, shape.delta);
+    const Blur span(spanPlace(span_[i], shape), cell.span, spanGain_[i], blur, shape.delta);
     const double flat = prior * flatness(i);
-    for (std::uint32_t e = edgeCell == 0 ? 1 : 0; e < 3 && edgeCell + e <= shape.side; ++e)
-      for (std::uint32_t s = spanCell == 0 ? 1 : 0; s < 3 && spanCell + s <= shape.side; ++s) {
+    for (std::uint32_t e = cell.edge == 0 ? 1 : 0; e < 3 && cell.edge + e <= shape.side; ++e)
+      for (std::uint32_t s = cell.span == 0 ? 1 : 0; s < 3 && cell.span + s <= shape.spanSide(); ++s) {
         const double x = flat * edge.density[e] * span.density[s];
         if (x < 0.003) continue;
-        float& score = out.score[(edgeCell + e - 1) * shape.side + spanCell + s - 1];
+        float& score = out.score[FineCell{cell.edge + e - 1, cell.span + s - 1}.number(shape)];
         score += static_cast<float>(std::min(logOnePlus(x), kMostPerDiamond));
       }
   }
@@ -149,25 +150,20 @@ CellScores DiamondVotes::score(const DeltaClass& shape, double sigma) const {
   return out;
 }
 
-void DiamondVotes::addRatios(const Constellation& constellation, const CellScores& scores, Stream stream,
-                             std::vector<float>& ratios) {
+void DiamondVotes::addSymbols(const Constellation& constellation, const CellScores& scores, Stream stream,
+                              SoftBits& out) {
   const std::uint32_t symbols = constellation.symbols(), bits = constellation.shape().symbol;
-  std::vector<double> likelihood(std::size_t{constellation.groups()} * symbols, 1.0);
-  for (std::uint32_t e = 0; e < constellation.shape().side; ++e)
-    for (std::uint32_t s = 0; s < constellation.shape().side; ++s) {
-      const std::uint32_t meaning = constellation.meaning(e, s);
-      const float score = scores.score[e * constellation.shape().side + s];
-      if (meaning != Constellation::kNone && score > 0) likelihood[meaning] = exactExp(score);
-    }
-  for (std::uint32_t g = 0; g < constellation.groups(); ++g)
-    for (std::uint32_t t = 0; t < bits; ++t) {
-      const Constellation::Slot& slot = constellation.slot(g, t);
-      if (slot.stream != stream || slot.bit >= ratios.size()) continue;
-      double of[2] = {0, 0};
-      for (std::uint32_t symbol = 0; symbol < symbols; ++symbol)
-        of[symbol >> t & 1] += likelihood[std::size_t{g} * symbols + symbol];
-      ratios[slot.bit] += static_cast<float>(exactLog(of[0] / of[1]));
-    }
+  std::vector<float> byMeaning(std::size_t{constellation.groups()} * symbols, 0.0f);
+  for (std::uint32_t cell = 0; cell < scores.score.size(); ++cell)
+    if (const std::uint32_t meaning = constellation.meaning(cell); meaning != Constellation::kNone)
+      byMeaning[meaning] = scores.score[cell];
+  out.symbolBits = bits;
+  for (std::uint32_t g = 0; g < constellation.groups(); ++g) {
+    if (constellation.slot(g, 0).stream != stream) continue;
+    for (std::uint32_t t = 0; t < bits; ++t) out.bitOf.push_back(constellation.slot(g, t).bit);
+    const auto first = byMeaning.begin() + std::ptrdiff_t{g} * symbols;
+    out.score.insert(out.score.end(), first, first + symbols);
+  }
 }
 
 void addDiamondEvidence(const Surface& surface, const Constellation& constellation, const CodedPayload& payload,
@@ -179,9 +175,10 @@ void addDiamondEvidence(const Surface& surface, const Constellation& constellati
     if (!diamondShape(surface.welded.positions, q, s)) continue;
     const double z = s.gapLength / (s.gapGain * sigma);
     if (z > kFarthest) continue;
-    const std::uint32_t edge = fineCell(folded(s.alongEdge), shape), span = fineCell(folded(s.alongSpan), shape);
-    if (edge >= shape.side || span >= shape.side) continue;
-    const std::uint32_t meaning = constellation.meaning(edge, span);
+    const Ratios ratios = ratiosOf(s);
+    const FineCell cell = fineCell(ratios.edge, ratios.span, shape);
+    if (!cell.isIn(shape)) continue;
+    const std::uint32_t meaning = constellation.meaning(cell.number(shape));
     if (meaning == Constellation::kNone) continue;
     if (good[meaning / constellation.symbols()] != meaning % constellation.symbols()) continue;
     for (const std::uint32_t v : {q.a, q.b, q.c, q.d})

@@ -13,7 +13,7 @@ namespace quadmark::robust {
 
 /// Log-likelihood that a fine cell is good, per fine cell of a class; keyless, so that one set serves all streams.
 struct CellScores {
-  std::vector<float> score;  ///< side * side, at least 0
+  std::vector<float> score;  ///< by FineCell::number, at least 0
   double share = 0;          ///< estimated share of marked diamonds
 };
 
@@ -25,23 +25,23 @@ class DiamondVotes {
   DiamondVotes(const Surface& surface, const std::vector<double>& positions, std::span<const double> sigmas);
 
   /// @param sigma  one of the constructor's.
-  [[nodiscard]] CellScores score(const DeltaClass& shape, double sigma) const;
+  /// @param plane  how much of it moves the ratios; less than all where the embedder has unflattened cells.
+  [[nodiscard]] CellScores score(const DeltaClass& shape, double sigma, double plane) const;
 
-  /// Ratios of a stream's coded bits from the scores of the groups that carry it; `ratios` is added to.
-  static void addRatios(const Constellation& constellation, const CellScores& scores, Stream stream,
-                        std::vector<float>& ratios);
+  /// Adds the symbols of the groups that carry a stream.
+  static void addSymbols(const Constellation& constellation, const CellScores& scores, Stream stream, SoftBits& out);
 
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(gap_.size()); }
 
  private:
-  static constexpr std::uint32_t kBins = 8;  // per axis of the background histogram
+  static constexpr std::uint32_t kBins = 8;  // of the background histogram for the edge; twice as many for the span
 
   [[nodiscard]] std::vector<float> background(double sigma) const;
 
   std::vector<double> limits_;           // ascending upper limits of gap_ per section
   std::vector<std::uint32_t> sections_;  // limits + 1: where each section begins
   std::vector<float> gap_;               // gap per unit of vertex noise that would explain it, file units
-  std::vector<float> edge_, span_;       // folded ratios
+  std::vector<float> edge_, span_;       // Ratios
   std::vector<float> edgeGain_, spanGain_;
   std::vector<std::uint8_t> bin_;
   double scale_ = 1;  // typical gap_ of unmarked diamonds

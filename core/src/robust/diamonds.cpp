@@ -11,6 +11,7 @@ namespace {
 struct HalfEdge {
   std::uint32_t high;      // the other end; the lower one is the bucket
   std::uint32_t opposite;  // third corner of its triangle, or kNoVertex in a polygon
+  bool down;               // its triangle runs along it from the higher end to the lower
 };
 
 // Half-edges bucketed by their lower end.
@@ -29,7 +30,7 @@ std::vector<HalfEdge> bucketEdges(const Surface& surface, std::vector<std::uint3
   std::vector<HalfEdge> edges(offsets.back());
   std::vector<std::uint32_t> cursor(offsets.begin(), offsets.end() - 1);
   forEach([&](std::uint32_t x, std::uint32_t y, std::uint32_t opposite) {
-    edges[cursor[std::min(x, y)]++] = {std::max(x, y), opposite};
+    edges[cursor[std::min(x, y)]++] = {std::max(x, y), opposite, x > y};
   });
   return edges;
 }
@@ -44,12 +45,14 @@ std::vector<Diamond> collectDiamonds(const Surface& surface) {
   for (std::uint32_t v = 0; v < surface.vertexCount(); ++v) {
     const auto begin = edges.begin() + offsets[v], end = edges.begin() + offsets[v + 1];
     sortShort(begin, end, [](const HalfEdge& x, const HalfEdge& y) {
-      return x.high != y.high ? x.high < y.high : x.opposite < y.opposite;
+      if (x.high != y.high) return x.high < y.high;
+      return x.down != y.down ? y.down : x.opposite < y.opposite;
     });
     for (auto e = begin; e != end;) {
       auto next = e;
       while (next != end && next->high == e->high) ++next;
-      const bool pair = next - e == 2 && e->opposite != (e + 1)->opposite && (e + 1)->opposite != kNoVertex;
+      const bool pair = next - e == 2 && e->opposite != (e + 1)->opposite && e->opposite != kNoVertex &&
+                        (e + 1)->opposite != kNoVertex;
       if (pair) out.push_back({e->opposite, v, (e + 1)->opposite, e->high});
       e = next;
     }

@@ -10,7 +10,8 @@
 
 namespace quadmark::robust {
 
-/// Edge b-d with the opposite corners a and c.
+/// Edge b-d with the opposite corners a and c. The triangle with a runs along the edge from b to d, that with c from d to
+/// b; where the windings of the two disagree, which is a and which c is left to chance.
 struct Diamond {
   std::uint32_t a = 0, b = 0, c = 0, d = 0;
 };
@@ -36,10 +37,5 @@ struct DiamondShape {
 
 /// @return false for diamonds that are not convex (a ratio outside 0..1) or nearly a line.
 [[nodiscard]] bool diamondShape(const std::vector<double>& positions, const Diamond& diamond, DiamondShape& out);
-
-/// The smaller part of a diagonal: 0..0.5, whichever end it is counted from.
-inline double folded(double ratio) {
-  return ratio < 0.5 ? ratio : 1 - ratio;
-}
 
 }  // namespace quadmark::robust

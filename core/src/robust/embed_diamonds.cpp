@@ -84,10 +84,8 @@ std::vector<Candidate> findCandidates(const Surface& surface, const std::vector<
     const Diamond& q = diamonds[i];
     if (!writer.free(q) || (sharp[q.a] | sharp[q.b] | sharp[q.c] | sharp[q.d]) != 0) continue;
     if (!diamondShape(positions, q, s) || s.gapLength > limits.mostGap * std::min(s.edgeLength, s.spanLength)) continue;
-    const double edge = folded(s.alongEdge), span = folded(s.alongSpan);
-    if (edge < kLeastRatio || span < kLeastRatio || fineCell(edge, shape) >= shape.side ||
-        fineCell(span, shape) >= shape.side)
-      continue;
+    const auto [edge, span] = ratiosOf(s);
+    if (!fineCell(edge, span, shape).isIn(shape)) continue;
     out.push_back({i, static_cast<float>(edge), static_cast<float>(span), static_cast<float>(s.edgeLength),
                    static_cast<float>(s.spanLength), static_cast<float>(s.gapLength), survival.reluctance(q)});
   }
@@ -108,13 +106,11 @@ DiamondEmbedding embedDiamonds(const Surface& surface, const FacesAround& facesA
   // 1. The good fine cells: those whose meaning is what the payload says.
   const std::vector<std::uint32_t> goodSymbols = constellation.goodSymbols(payload);
   std::vector<std::uint32_t> goodCells;
-  for (std::uint32_t e = 0; e < shape.side; ++e)
-    for (std::uint32_t s = 0; s < shape.side; ++s) {
-      const std::uint32_t meaning = constellation.meaning(e, s);
-      if (meaning == Constellation::kNone) continue;
-      if (goodSymbols[meaning / constellation.symbols()] == meaning % constellation.symbols())
-        goodCells.push_back(e * shape.side + s);
-    }
+  for (std::uint32_t cell = 0; cell < shape.cells(); ++cell) {
+    const std::uint32_t meaning = constellation.meaning(cell);
+    if (meaning == Constellation::kNone) continue;
+    if (goodSymbols[meaning / constellation.symbols()] == meaning % constellation.symbols()) goodCells.push_back(cell);
+  }
   const double perCell = static_cast<double>(surface.vertexCount()) / static_cast<double>(goodCells.size());
   const auto farShare =
       static_cast<std::uint32_t>(std::clamp(limits.farQuota * perCell, limits.leastFar, limits.mostFar));
@@ -137,13 +133,14 @@ DiamondEmbedding embedDiamonds(const Surface& surface, const FacesAround& facesA
           const Diamond& q = diamonds[c.diamond];
           DiamondShape s;
           if (!writer.free(q) || !diamondShape(positions, q, s)) continue;
-          const std::uint32_t edgeCell = goodCells[g] / shape.side, spanCell = goodCells[g] % shape.side;
-          const double edge = fineCentre(edgeCell, shape), span = fineCentre(spanCell, shape);
-          if (!writer.write(q, s.alongEdge < 0.5 ? edge : 1 - edge, s.alongSpan < 0.5 ? span : 1 - span)) {
+          const FineCell cell = FineCell::ofNumber(goodCells[g], shape);
+          const double edge = edgeCentre(cell.edge, shape), span = spanCentre(cell.span, shape);
+          const bool turned = s.alongEdge >= 0.5;  // as in ratiosOf()
+          if (!writer.write(q, turned ? 1 - edge : edge, turned ? 1 - span : span)) {
             ++out.vetoed;
             continue;
           }
-          out.cells.push_back({q, constellation.meaning(edgeCell, spanCell), c.gap});
+          out.cells.push_back({q, constellation.meaning(goodCells[g]), c.gap});
           ++copies[g];
           any = true;
           break;

@@ -33,7 +33,7 @@ Preset presetOf(Strength strength) {
   };
   static constexpr Row kRows[] = {
       {0.5, 12, 5, 0.012, 35, 4, 0.03, 6, 2e-3, 1e-5, 0.5},     // invisible
-      {0.7, 25, 10, 0.035, 35, 10, 0.075, 10, 6e-3, 1e-5, 1},  // standard
+      {0.7, 25, 10, 0.05, 35, 10, 0.075, 10, 6e-3, 1e-5, 1},  // standard
       {0.9, 35, 20, 0.1, 60, 20, 0.135, 100, 1.5e-2, 0, 1e9},  // strong
   };
   const Row& row = kRows[static_cast<int>(strength)];
@@ -59,8 +59,6 @@ constexpr double kMeanTurn = 0.0087, kSurfaceRms = 5.9e-5, kSurfaceRmsCoarse = 0
 // Shares do not add up exactly: aim a little lower, and look again.
 constexpr double kBudgetShare = 0.98;
 constexpr int kBudgetRounds = 6;
-// Votes of cells are worth more than those of carriers: four vertices have to stay where simplification leaves half.
-constexpr double kCellWorth = 1.4;
 
 DistortionLimits limitsOf(const Preset& preset, const Surface& surface, double diagonal) {
   const double coarse = kSurfaceRmsCoarse / std::max(1u, surface.vertexCount());
@@ -68,44 +66,43 @@ DistortionLimits limitsOf(const Preset& preset, const Surface& surface, double d
 }
 
 // Exactly flat quadrilaterals are a beacon that needs no key. Cells get a gap of the size that 14-bit quantization gives
-// them anyway, which the reader hardly notices; those that were flatter before get back about half of what they had.
+// them anyway, along their normals so that the ratios stay; those that were flatter before get back about half of what they had.
 void conceal(const std::vector<WrittenCell>& cells, const Prf& prf, double amplitude, std::vector<double>& positions) {
   for (const WrittenCell& cell : cells) {
     const double most = std::min(amplitude, 0.5 * static_cast<double>(cell.naturalGap));
     const Diamond& q = cell.diamond;
     Random random(prf(std::uint64_t{cell.meaning} << 32 | q.b));
-    for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) {
-      const Vec3 p = at(positions, v);
-      const double x = random.uniform(-most, most), y = random.uniform(-most, most);
-      put(positions, v, {p.x + x, p.y + y, p.z + random.uniform(-most, most)});
-    }
+    const Vec3 normal =
+        normalized(cross(at(positions, q.c) - at(positions, q.a), at(positions, q.d) - at(positions, q.b)));
+    for (const std::uint32_t v : {q.a, q.b, q.c, q.d})
+      put(positions, v, at(positions, v) + random.uniform(-most, most) * normal);
   }
 }
 
 // Half the noise of 14-bit quantization, of the extent: the mark's natural enemy sets the scale of fine cells.
 constexpr double kQuantizationSigma = 1.76e-5;
 
-// The coarsest noise any diamond of the middle sees; cells of five times that are read reliably.
+// The coarsest noise any diamond of the middle sees; cells of five times that are read reliably. A body gets the coarsest
+// cells that leave half as many slots again as it has bits, before coding.
 std::uint8_t chooseDelta(const std::vector<Diamond>& diamonds, const std::vector<double>& positions,
-                         std::size_t codedBits, bool hasBody) {
+                         std::size_t bodyBits) {
   std::vector<double> blur;
   const double sigma = kQuantizationSigma * largestExtent(positions);
   DiamondShape s;
   for (const Diamond& q : diamonds)
-    if (diamondShape(positions, q, s) && folded(s.alongEdge) > kLeastRatio && folded(s.alongSpan) > kLeastRatio)
+    if (diamondShape(positions, q, s) && isUsable(ratiosOf(s)))
       blur.push_back(std::max(s.edgeGain, s.spanGain) * sigma);
   double median = 0;
   if (!blur.empty()) {
     std::nth_element(blur.begin(), blur.begin() + blur.size() / 2, blur.end());
     median = blur[blur.size() / 2];
   }
-  if (!hasBody) return 5 * median <= kDeltas[0].delta ? 0 : 5 * median <= kDeltas[1].delta ? 1 : 2;
-  for (const std::uint8_t c : {std::uint8_t{0}, std::uint8_t{3}}) {
-    const std::size_t slots =
-        std::size_t{kDeltas[c].side} * kDeltas[c].side / (1u << kDeltas[c].symbol) * kDeltas[c].symbol;
-    if (2 * slots >= codedBits) return c;
+  if (bodyBits == 0) return 5 * median <= kDeltas[0].delta ? 0 : 5 * median <= kDeltas[1].delta ? 1 : 2;
+  for (const std::uint8_t c : {std::uint8_t{3}, std::uint8_t{4}}) {
+    const std::size_t slots = std::size_t{kDeltas[c].groups()} * kDeltas[c].symbol * (16 - kHeadSixteenths) / 16;
+    if (2 * slots >= 3 * bodyBits) return c;
   }
-  return 4;
+  return 5;
 }
 
 // Undoes the dearest cells, and marks the dearest carriers, until what is left should keep within the limits; all
@@ -122,7 +119,7 @@ bool giveUp(const Surface& surface, ChangeMeter& change, const Carriers& carrier
   for (const std::uint32_t i : written)
     expenses.push_back({change.turnOf(carriers.vertex[i]), change.squareOf(carriers.vertex[i]), 2});
   for (const WrittenCell& cell : cells) {
-    Expense e{0, 0, kCellWorth * symbolBits};
+    Expense e{0, 0, static_cast<double>(symbolBits)};
     const Diamond& q = cell.diamond;
     for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) e.turn += change.turnOf(v), e.square += change.squareOf(v);
     expenses.push_back(e);
@@ -191,7 +188,7 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   if (cancelled("diamonds", 0.3)) return aborted;
   std::vector<Diamond> diamonds = collectDiamonds(surface);
   const Sharing sharing = payload.hasBody() ? Sharing::split : Sharing::headOnly;
-  out.deltaClass = chooseDelta(diamonds, positions, payload.head.size() + payload.body.size(), payload.hasBody());
+  out.deltaClass = chooseDelta(diamonds, positions, payload.bodyInformation());
   const Constellation constellation(out.deltaClass, keys, sharing, payload.headCode(), payload.bodyCode());
   std::vector<std::uint8_t> occupied(surface.vertexCount(), 0);
   for (const std::uint32_t v : carriers.vertex) occupied[v] = 1;
@@ -264,6 +261,7 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   out.vetoed = cells.vetoed;
   out.goodCells = constellation.groups();
   out.ringPositions = countSet(ringHit[0]);
+  for (std::size_t i = 0; i < ringHit[0].size(); ++i) out.headPositions += ringHit[0][i] | diamondHit[0][i];
   out.ringBodyPositions = countSet(ringHit[1]);
   out.diamondPositions = countSet(diamondHit[0]);
   out.diamondBodyPositions = countSet(diamondHit[1]);

@@ -5,6 +5,7 @@
 
 #include "quadmark/prf.h"
 #include "quadmark/robust/code.h"
+#include "quadmark/robust/demapper.h"
 
 namespace quadmark::robust {
 namespace {
@@ -236,11 +237,15 @@ std::string shortText(const Frame& frame) {
   return padded && isUtf8(text) ? text : std::string();
 }
 
-BodyReading decodeBody(const BodyShape& shape, std::span<const float> coded, const SchemeKeys& keys) {
+BodyReading decodeBody(const BodyShape& shape, const SoftBits& coded, const SchemeKeys& keys, float scale) {
   const ConvolutionalCode& code = codeOf(shape.rate);
   const bool plain = shape.rate == BodyRate::plain;
   const Stream stream(keys, Domain::body, shape.tag);
-  std::vector<float> ratios = plain ? std::vector<float>(coded.begin(), coded.end()) : posteriorRatios(code, coded);
+  Demapper demapper(coded, scale);
+  if (!plain) demapper.iterate(code, kDemapperRounds);
+  std::vector<float> ratios = plain ? demapper.ratios() : posteriorRatios(code, demapper.ratios());
+  if (!plain)
+    for (std::size_t i = 0; i < shape.bits(); ++i) ratios[i] = ratios[i * code.rate()];
   ratios.resize(shape.bits());
 
   BodyReading reading;
@@ -255,7 +260,7 @@ BodyReading decodeBody(const BodyShape& shape, std::span<const float> coded, con
   for (std::size_t i = 0; i < ratios.size(); ++i) likeliest[i] = ratios[i] < 0 ? 1 : 0;
   // The likeliest codewords are seldom right where bit by bit is not, but then all of it is.
   if (!confirmed(likeliest) && !plain)
-    static_cast<void>(decodeList(code, coded, kBodyTries - 1, [&](std::span<const std::uint8_t> input) {
+    static_cast<void>(decodeList(code, demapper.ratios(), kBodyTries - 1, [&](std::span<const std::uint8_t> input) {
       const std::vector<std::uint8_t> word = encodeTailBiting(code, input);
       std::vector<std::uint8_t> systematic(shape.bits());
       for (std::size_t i = 0; i < systematic.size(); ++i) systematic[i] = word[i * code.rate()];

@@ -35,32 +35,23 @@ constexpr std::uint16_t kEnoughIrregular[kLabelDepth] = {0xffff, 0xffff, 5, 2};
 bool canonicalRing(std::span<const std::uint32_t> ring, std::span<const std::uint64_t> names, std::uint32_t* order,
                    std::uint64_t& hash) {
   const std::size_t n = ring.size();
-  // Both senses, each twice in a row, so that every rotation is a window.
-  std::uint64_t forward[2 * kMaxRing], backward[2 * kMaxRing];
-  for (std::size_t k = 0; k < n; ++k) {
-    forward[k] = forward[k + n] = names[ring[k]];
-    backward[n - 1 - k] = backward[2 * n - 1 - k] = forward[k];
-  }
-  const std::uint64_t* best = forward;
-  std::size_t bestStart = 0, ties = 1;
-  bool mirrored = false;
-  for (int sense = 0; sense < 2; ++sense) {
-    for (std::size_t start = sense == 0 ? 1 : 0; start < n; ++start) {
-      const std::uint64_t* candidate = (sense == 0 ? forward : backward) + start;
-      std::size_t k = 0;
-      while (k < n && candidate[k] == best[k]) ++k;
-      if (k == n) {
-        ++ties;
-      } else if (candidate[k] < best[k]) {
-        best = candidate, bestStart = start, mirrored = sense == 1, ties = 1;
-      }
+  // Twice in a row, so that every rotation is a window.
+  std::uint64_t sequence[2 * kMaxRing];
+  for (std::size_t k = 0; k < n; ++k) sequence[k] = sequence[k + n] = names[ring[k]];
+  std::size_t best = 0, ties = 1;
+  for (std::size_t start = 1; start < n; ++start) {
+    std::size_t k = 0;
+    while (k < n && sequence[start + k] == sequence[best + k]) ++k;
+    if (k == n) {
+      ++ties;
+    } else if (sequence[start + k] < sequence[best + k]) {
+      best = start, ties = 1;
     }
   }
   hash = Random::mix(n);
   for (std::size_t k = 0; k < n; ++k) {
-    hash = combine(hash, best[k]);
-    const std::size_t at = (bestStart + k) % n;
-    order[k] = ring[mirrored ? n - 1 - at : at];
+    hash = combine(hash, sequence[best + k]);
+    order[k] = ring[(best + k) % n];
   }
   return ties == 1;
 }

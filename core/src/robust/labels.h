@@ -11,11 +11,13 @@
 
 namespace quadmark::robust {
 
-/// Brings a ring into the order of its least sequence of names over all rotations and both senses.
+/// Brings a ring into the order of its least sequence of names over all rotations. Both senses would make names that
+/// mirroring does not change, at the price of neighbourhoods that are their own mirror image (no unique order) and of twin
+/// names on the two sides of a symmetric model: ogre has 900 names so, 1400 with one sense; icosphere none and all.
 /// @param ring   kMaxRing vertices at most.
 /// @param names  one per vertex of the surface.
 /// @param order  receives the ring in canonical order; at least ring.size() long.
-/// @param hash   receives a hash of that sequence, which neither file order nor mirroring changes.
+/// @param hash   receives a hash of that sequence, which the file's order does not change.
 /// @return whether that order is the only one: then it names every ring vertex.
 bool canonicalRing(std::span<const std::uint32_t> ring, std::span<const std::uint64_t> names, std::uint32_t* order,
                    std::uint64_t& hash);

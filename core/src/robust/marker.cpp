@@ -11,19 +11,27 @@ namespace quadmark::robust {
 namespace {
 
 /// Coded forms of a body to try, the most robust that could fit first: a vote per coded bit and more is worth a code,
-/// fewer are better spent on the pixels themselves.
+/// fewer are better spent on the pixels themselves. From 4 votes of layer A per pixel on, a third is as good as a half in
+/// layer A and better in B, whose symbols then have more of the code to agree with (bunny at .7: 5 keys of 5, not 3).
 std::vector<BodyRate> ratesFor(const Mesh& mesh, const PayloadBits& bits, const SchemeKeys& keys) {
   if (bits.body.empty()) return {BodyRate::half};
   const MeshReader reader(mesh, keys.geometry, headCode());
   const double votes = 2.0 * reader.coverage().labels / static_cast<double>(bits.body.size());
-  if (votes >= 12) return {BodyRate::third, BodyRate::half, BodyRate::plain};
+  if (votes >= 4) return {BodyRate::third, BodyRate::half, BodyRate::plain};
   return {BodyRate::half, BodyRate::plain};
+}
+
+// Positions of the head that count for the least capacity. An ID fills both layers and must be whole in one, as most
+// damage leaves only one of them. A body leaves its head a few places in each: there both count.
+std::uint32_t headPlaces(const MarkedMesh& marked) {
+  const RobustEmbedding& e = marked.embedding;
+  return marked.bits.body.empty() ? std::max(e.ringPositions, e.diamondPositions) : e.headPositions;
 }
 
 Error tooSmall(const MarkedMesh& marked, bool readable) {
   const RobustEmbedding& e = marked.embedding;
   const std::string counts = std::to_string(e.carriers) + " carriers and " + std::to_string(e.cells) + " cells hold " +
-                             std::to_string(std::max(e.ringPositions, e.diamondPositions)) + " of the " +
+                             std::to_string(headPlaces(marked)) + " of the " +
                              std::to_string(marked.coded.head.size()) + " bits that identify the mark";
   if (!readable)
     return {ErrorCode::capacity, counts + ": the payload does not read back" +
@@ -56,7 +64,7 @@ Result<MarkedMesh> markMesh(const Mesh& mesh, const Payload& payload, const Sche
     if (marked.unattacked.read) break;
   }
   if (!marked.unattacked.read) return tooSmall(marked, false);
-  if (std::max(marked.embedding.ringPositions, marked.embedding.diamondPositions) < kLeastPositions)
+  if (headPlaces(marked) < kLeastPositions)
     return tooSmall(marked, true);
   return marked;
 }

@@ -13,14 +13,14 @@ bool MeshSource::search(const AcceptHead& accept) { return reader_.search(limits
 
 std::vector<Hypothesis> MeshSource::plan() const { return MeshReader::hypotheses(limits_); }
 
-std::vector<float> MeshSource::headRatios(const Hypothesis& hypothesis) { return reader_.headRatios(hypothesis); }
+SoftBits MeshSource::headBits(const Hypothesis& hypothesis) { return reader_.headBits(hypothesis); }
 
-std::vector<float> MeshSource::bodyRatios(const Hypothesis& hypothesis, const StreamCode& body) {
-  return reader_.bodyRatios(hypothesis, body);
+SoftBits MeshSource::bodyBits(const Hypothesis& hypothesis, const StreamCode& body) {
+  return reader_.bodyBits(hypothesis, body);
 }
 
-Agreement MeshSource::ringAgreement(const CodedPayload& expected, double sharpening) {
-  return reader_.ringAgreement(expected, sharpening);
+Agreement MeshSource::ringAgreement(const CodedPayload& expected, double sharpening, bool mirrored) {
+  return reader_.ringAgreement(expected, sharpening, mirrored);
 }
 
 bool MeshSource::couldHaveRead() const {

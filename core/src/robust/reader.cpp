@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "diamond_votes.h"
+#include "quadmark/robust/demapper.h"
 #include "ring_votes.h"
 #include "sorting.h"
 
@@ -18,7 +19,13 @@ constexpr double kDiamondSigmas[] = {1e-5, 1.8e-5, 3e-6, 4e-8, 4e-5, 8e-5};
 // Noise at which lattice steps are compared where no level is given: a tolerant one, as sharper peaks may be missed.
 constexpr double kStepSigma = 4e-4;
 constexpr double kSharpenings[] = {0.1, 0.3, 0.6, 1.0};
-constexpr std::uint8_t kHeadOnlyClasses[] = {0, 1, 2}, kSplitClasses[] = {0, 3, 4};
+constexpr std::uint8_t kHeadOnlyClasses[] = {0, 1, 2}, kSplitClasses[] = {3, 4, 5};
+
+// Cells are unflattened by noise along their normals of up to 1e-5 of the diagonal; where no more noise than that is
+// assumed, the ratios have seen less of it. (Of 1, 0.5, 0.35 and 0.25: finer is better on exact coordinates, and loses
+// simplification with 14 and 15 bits on dense models.)
+constexpr double kConcealmentSigma = 1e-5, kQuietPlane = 0.5;
+double planeShare(double sigma) { return sigma <= kConcealmentSigma ? kQuietPlane : 1; }
 
 // Calls visit(hypothesis) for all, likeliest first, until it returns true.
 template <class Visit>
@@ -68,6 +75,17 @@ bool forEachHypothesis(const ReadLimits& limits, const Visit& visit) {
     for (int sharing = 0; sharing < sharings; ++sharing)
       for (const double sigma : kRingSigmas)
         if (offer(ring(sigma, 0, sharpening), sharing)) return true;
+  const auto offerMirrored = [&](Hypothesis h, int sharing) {
+    h.mirrored = true;
+    return offer(h, sharing);
+  };
+  for (int sharing = 0; sharing < sharings; ++sharing) {
+    for (int i = 0; i < 2; ++i)
+      if (offerMirrored(ring(kRingSigmas[i], 0, 0), sharing)) return true;
+    for (const std::uint8_t deltaClass : classes(sharing))
+      for (int i = 0; i < 2; ++i)
+        if (offerMirrored(diamonds(kDiamondSigmas[i], deltaClass), sharing)) return true;
+  }
   return false;
 }
 
@@ -82,6 +100,7 @@ struct MeshReader::State {
   Carriers carriers;
   RingCode ringCode;
   ReaderCoverage coverage;
+  bool mirrored = false;  // what follows is of the surface turned over
   std::map<double, RingVotes> ringVotes;                                // by sharpening
   std::map<std::pair<double, double>, std::vector<double>> stepsByFit;  // by sharpening and sigma
   std::unique_ptr<DiamondVotes> diamondVotes;
@@ -91,16 +110,32 @@ struct MeshReader::State {
       : mesh(m),
         keys(k),
         head(std::move(h)),
-        surface(makeSurface(m)),
-        extent(largestExtent(surface.welded.positions)),
-        carriers(selectCarriers(surface, Prf(k.select))),
         ringCode(k) {
-    forgetNeighbours(surface);
+    look();
+    extent = largestExtent(surface.welded.positions);
     coverage.vertices = surface.vertexCount();
     coverage.carriers = carriers.count();
     const RingVotes& votes = rings(0);
     coverage.labels = votes.labelCount();
     coverage.ringPositions = votes.positionsHit({Sharing::headOnly, Stream::head, head.bits});
+  }
+
+  void look() {
+    surface = makeSurface(mesh);
+    if (mirrored) turnOver(surface);
+    carriers = selectCarriers(surface, Prf(keys.select));
+    forgetNeighbours(surface);
+  }
+
+  // One side at a time: the other one is rarely asked for, and would double the memory.
+  void turn(bool wanted) {
+    if (mirrored == wanted) return;
+    mirrored = wanted;
+    ringVotes.clear();
+    stepsByFit.clear();
+    diamondVotes.reset();
+    scores.clear();
+    look();
   }
 
   const RingVotes& rings(double sharpening) {
@@ -131,20 +166,22 @@ struct MeshReader::State {
       coverage.diamonds = diamondVotes->count();
     }
     const auto [place, isNew] = scores.try_emplace({deltaClass, sigma});
-    if (isNew) place->second = diamondVotes->score(kDeltas[deltaClass], sigma * extent);
+    if (isNew) place->second = diamondVotes->score(kDeltas[deltaClass], sigma * extent, planeShare(sigma));
     coverage.diamondShare = std::max(coverage.diamondShare, place->second.share);
     return place->second;
   }
 
-  std::vector<float> ratios(const Hypothesis& h, Stream stream, const StreamCode& body) {
+  SoftBits bits(const Hypothesis& h, Stream stream, const StreamCode& body) {
+    turn(h.mirrored);
     const StreamSelection selection{h.sharing, stream, stream == Stream::head ? head.bits : body.bits};
-    std::vector<float> out(selection.bits, 0.0f);
+    SoftBits out{std::vector<float>(selection.bits, 0.0f)};
+    if (selection.bits == 0) return out;
     if (h.layers != Layers::diamonds)
       rings(h.sharpening)
-          .addRatios({ringStep(h.sharpening, h.ringSigma, h.ringRank), h.ringSigma * extent}, selection, out);
+          .addRatios({ringStep(h.sharpening, h.ringSigma, h.ringRank), h.ringSigma * extent}, selection, out.single);
     if (h.layers != Layers::ring)
-      DiamondVotes::addRatios(Constellation(h.deltaClass, keys, h.sharing, head, body),
-                              cells(h.deltaClass, h.diamondSigma), stream, out);
+      DiamondVotes::addSymbols(Constellation(h.deltaClass, keys, h.sharing, head, body),
+                               cells(h.deltaClass, h.diamondSigma), stream, out);
     return out;
   }
 };
@@ -155,7 +192,7 @@ MeshReader::~MeshReader() = default;
 MeshReader::MeshReader(MeshReader&&) noexcept = default;
 
 bool MeshReader::search(const ReadLimits& limits, const AcceptHead& accept) {
-  return forEachHypothesis(limits, [&](const Hypothesis& h) { return accept(headRatios(h), h); });
+  return forEachHypothesis(limits, [&](const Hypothesis& h) { return accept(headBits(h), h); });
 }
 
 std::vector<Hypothesis> MeshReader::hypotheses(const ReadLimits& limits) {
@@ -167,16 +204,17 @@ std::vector<Hypothesis> MeshReader::hypotheses(const ReadLimits& limits) {
   return out;
 }
 
-std::vector<float> MeshReader::headRatios(const Hypothesis& hypothesis) {
-  return state_->ratios(hypothesis, Stream::head, {});
+SoftBits MeshReader::headBits(const Hypothesis& hypothesis) {
+  return state_->bits(hypothesis, Stream::head, {});
 }
 
-std::vector<float> MeshReader::bodyRatios(const Hypothesis& hypothesis, const StreamCode& body) {
-  return state_->ratios(hypothesis, Stream::body, body);
+SoftBits MeshReader::bodyBits(const Hypothesis& hypothesis, const StreamCode& body) {
+  return state_->bits(hypothesis, Stream::body, body);
 }
 
-Agreement MeshReader::ringAgreement(const CodedPayload& expected, double sharpening) {
+Agreement MeshReader::ringAgreement(const CodedPayload& expected, double sharpening, bool mirrored) {
   Agreement out;
+  state_->turn(mirrored);
   const Sharing sharing = expected.hasBody() ? Sharing::split : Sharing::headOnly;
   const RingVotes& votes = state_->rings(sharpening);
   const double step = state_->ringStep(sharpening, kStepSigma, 0);
@@ -190,20 +228,23 @@ Agreement MeshReader::diamondAgreement(const CodedPayload& expected, const Hypot
   Hypothesis h = hypothesis;
   h.layers = Layers::diamonds;
   h.sharing = expected.hasBody() ? Sharing::split : Sharing::headOnly;
-  const auto count = [&](const std::vector<float>& ratios, const std::vector<std::uint8_t>& bits) {
+  const auto count = [&](const SoftBits& soft, const std::vector<std::uint8_t>& bits) {
+    const Demapper demapper(soft);
+    const std::vector<float>& ratios = demapper.ratios();
     for (std::size_t i = 0; i < bits.size(); ++i) {
       if (ratios[i] == 0) continue;
       ++out.votes;
       out.agreeing += (ratios[i] < 0) == (bits[i] != 0);
     }
   };
-  count(headRatios(h), expected.head);
-  if (expected.hasBody()) count(bodyRatios(h, expected.bodyCode()), expected.body);
+  count(headBits(h), expected.head);
+  if (expected.hasBody()) count(bodyBits(h, expected.bodyCode()), expected.body);
   return out;
 }
 
 std::vector<float> MeshReader::evidence(const CodedPayload& payload, const Hypothesis& hypothesis) {
   State& s = *state_;
+  s.turn(hypothesis.mirrored);
   std::vector<float> perWelded(s.surface.vertexCount(), 0.0f);
   const double sigma = hypothesis.layers == Layers::diamonds ? kStepSigma : hypothesis.ringSigma;
   const double step = s.ringStep(hypothesis.sharpening, sigma, hypothesis.ringRank);

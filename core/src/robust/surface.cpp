@@ -92,6 +92,15 @@ void forgetNeighbours(Surface& surface) {
   surface.welded.neighbours = {};
 }
 
+void turnOver(Surface& surface) {
+  const auto reverse = [](std::vector<std::uint32_t>& values, const std::vector<std::uint32_t>& offsets) {
+    for (std::size_t i = 0; i + 1 < offsets.size(); ++i)
+      std::reverse(values.begin() + offsets[i], values.begin() + offsets[i + 1]);
+  };
+  reverse(surface.corners, surface.faceOffsets);
+  reverse(surface.rings, surface.ringOffsets);
+}
+
 FacesAround::FacesAround(const Surface& surface)
     : offsets_(surface.vertexCount() + 1, 0), faces_(surface.corners.size()) {
   for (const std::uint32_t v : surface.corners) ++offsets_[v + 1];

@@ -28,8 +28,8 @@ struct Surface {
   [[nodiscard]] std::span<const std::uint32_t> face(std::uint32_t f) const {
     return {corners.data() + faceOffsets[f], faceOffsets[f + 1] - faceOffsets[f]};
   }
-  /// Closed manifold fan of kMinRing..kMaxRing neighbours, or empty. Which one is first and the sense of rotation
-  /// depend on the file's order.
+  /// Closed manifold fan of kMinRing..kMaxRing neighbours in the sense in which the faces wind, or empty. Which one is
+  /// first depends on the file's order.
   [[nodiscard]] std::span<const std::uint32_t> ring(std::uint32_t vertex) const {
     return {rings.data() + ringOffsets[vertex], ringOffsets[vertex + 1] - ringOffsets[vertex]};
   }
@@ -40,6 +40,9 @@ struct Surface {
 
 /// Frees what only labels are made from (`welded.neighbours`).
 void forgetNeighbours(Surface& surface);
+
+/// Reverses the winding of all faces and rings: as the mesh would be after mirroring and mending its winding.
+void turnOver(Surface& surface);
 
 /// The faces around each welded vertex.
 class FacesAround {

@@ -58,10 +58,10 @@ struct ListResult {
                                     std::uint32_t listSize,
                                     const std::function<bool(std::span<const std::uint8_t> input)>& accept);
 
-/// A posteriori log-likelihood ratios of generator 0's outputs (Bahl, Cocke, Jelinek and Raviv 1974): n of them, within
-/// +-60. Unlike the likeliest codeword they never know less than the ratios that came in.
+/// A posteriori log-likelihood ratios of all coded bits (Bahl, Cocke, Jelinek and Raviv 1974): as many as came in, within
+/// +-60. Unlike the likeliest codeword they never know less than what came in.
 /// @param ratios  as for decodeList(); magnitudes above 20 count as 20.
-/// Deterministic. Cost: 1.5 microseconds and 1 kB per step.
+/// Deterministic. Cost: 2 microseconds and 1 kB per step.
 [[nodiscard]] std::vector<float> posteriorRatios(const ConvolutionalCode& code, std::span<const float> ratios);
 
 }  // namespace quadmark::robust

@@ -27,6 +27,12 @@ struct CodedPayload {
   std::vector<std::uint8_t> bodyGenerator;  ///< empty or as long as body
 
   [[nodiscard]] bool hasBody() const { return !body.empty(); }
+  /// Bits of the body before coding: outputs of generator 0.
+  [[nodiscard]] std::size_t bodyInformation() const {
+    std::size_t others = 0;
+    for (const std::uint8_t g : bodyGenerator) others += g != 0 ? 1 : 0;
+    return body.size() - others;
+  }
   [[nodiscard]] StreamCode headCode() const { return {static_cast<std::uint32_t>(head.size()), headGenerator}; }
   [[nodiscard]] StreamCode bodyCode() const { return {static_cast<std::uint32_t>(body.size()), bodyGenerator}; }
 };
@@ -54,17 +60,27 @@ enum class Layers : std::uint8_t { ring, diamonds, both };
 struct Hypothesis {
   Layers layers = Layers::ring;
   Sharing sharing = Sharing::headOnly;
-  std::uint8_t deltaClass = 0;  ///< side of layer B's fine cells, index into kDeltas (diamonds.h); of no meaning for ring
+  std::uint8_t deltaClass = 0;  ///< side of layer B's fine cells, index into kDeltas (ratio_plane.h); of no meaning for ring
   double ringSigma = 0;         ///< vertex noise assumed by layer A, of the largest extent
   double diamondSigma = 0;      ///< the same for layer B
   double sharpening = 0;        ///< total lambda of the Laplacian sharpening undone before reading; 0 for none
   std::uint8_t ringRank = 0;    ///< layer A's lattice step: the one that fits the model best, second best, third
   std::uint32_t number = 0;     ///< sets of ratios handed out so far, this one included: multiplies every probability
+  bool mirrored = false;        ///< read with all faces turned over: what a mirrored copy with mended winding looks like
 };
 
-/// Called with one log-likelihood ratio per coded bit of the head (positive: 0 is likelier; 0: unknown). True stops the
-/// search: the caller could decode.
-using AcceptHead = std::function<bool(std::span<const float> head, const Hypothesis& hypothesis)>;
+/// What a mesh says about the coded bits of one stream under a hypothesis. Layer A speaks about single bits, layer B about
+/// the few bits of a symbol together: ratios of its bits follow (demapper.h), but the symbol says more than they do once
+/// some of its bits are known from elsewhere.
+struct SoftBits {
+  std::vector<float> single;          ///< per coded bit a log-likelihood ratio: positive where 0 is likelier, 0 = unknown
+  std::uint32_t symbolBits = 0;       ///< bits per symbol, at most 4; 0: no symbols
+  std::vector<std::uint32_t> bitOf{}; ///< [symbol][symbolBits]: the coded bit each of them carries, below single.size()
+  std::vector<float> score{};         ///< [symbol][1 << symbolBits]: log-likelihood of each value up to a common term, 0..25
+};
+
+/// Called with what is known of the head's coded bits. True stops the search: the caller could decode.
+using AcceptHead = std::function<bool(const SoftBits& head, const Hypothesis& hypothesis)>;
 
 /// Independent votes of which some agree with an expected payload: Binomial(votes, 1/2) on unmarked models.
 struct Agreement {

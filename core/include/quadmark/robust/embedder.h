@@ -39,6 +39,7 @@ struct RobustEmbedding {
   std::uint8_t deltaClass = 0;
   std::uint32_t ringPositions = 0;    ///< U_A: coded positions of the head hit by a written label
   std::uint32_t diamondPositions = 0; ///< U_B: coded positions of the head whose group has a written cell
+  std::uint32_t headPositions = 0;    ///< coded positions of the head that either layer holds
   std::uint32_t ringBodyPositions = 0;
   std::uint32_t diamondBodyPositions = 0;
 };

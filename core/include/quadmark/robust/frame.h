@@ -83,9 +83,11 @@ struct BodyReading {
   bool exact = false;              ///< the tag confirms all bits; the ratios are then +-60
 };
 /// Decodes a body as far as it goes: without a right tag each bit is the likeliest one by itself.
-/// @param coded  a log-likelihood ratio per coded bit of bodyCode(shape).
+/// @param coded  what is known of the coded bits of bodyCode(shape).
+/// @param scale  factor on it, as for Demapper.
 /// A wrong body is called exact with probability kBodyTries * 2^-kBodyTagBits at most.
-[[nodiscard]] BodyReading decodeBody(const BodyShape& shape, std::span<const float> coded, const SchemeKeys& keys);
+[[nodiscard]] BodyReading decodeBody(const BodyShape& shape, const SoftBits& coded, const SchemeKeys& keys,
+                                     float scale = 1);
 inline constexpr std::uint32_t kBodyTries = 17;
 
 /// Whether text is well-formed UTF-8 (RFC 3629) without zero bytes.

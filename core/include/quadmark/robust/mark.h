@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading a payload from log-likelihood ratios, and what the reading is worth.
+// Reading a payload from soft bits, and what the reading is worth.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@ namespace quadmark::robust {
 /// over 1, which is as much as two more bits of memory (five times the work); 512 gains nothing more.
 inline constexpr std::uint32_t kListSize = 64;
 
-/// Where ratios come from: a mesh, or a test's simulation of one.
-class RatioSource {
+/// Where coded bits come from: a mesh, or a test's simulation of one.
+class BitSource {
  public:
-  virtual ~RatioSource() = default;
+  virtual ~BitSource() = default;
   virtual bool search(const AcceptHead& accept) = 0;
   [[nodiscard]] virtual std::vector<Hypothesis> plan() const = 0;
-  virtual std::vector<float> headRatios(const Hypothesis& hypothesis) = 0;
-  virtual std::vector<float> bodyRatios(const Hypothesis& hypothesis, const StreamCode& body) = 0;
-  virtual Agreement ringAgreement(const CodedPayload& expected, double sharpening) = 0;
+  virtual SoftBits headBits(const Hypothesis& hypothesis) = 0;
+  virtual SoftBits bodyBits(const Hypothesis& hypothesis, const StreamCode& body) = 0;
+  virtual Agreement ringAgreement(const CodedPayload& expected, double sharpening, bool mirrored) = 0;
   /// Whether a mark would have been found if there were one: enough places voted.
   [[nodiscard]] virtual bool couldHaveRead() const = 0;
 };
@@ -62,8 +62,8 @@ struct ReadRequest {
 ///
 /// falsePositive is the least of
 /// - hypotheses * kListSize * 2^-24: that some tag is right by accident (some 3e-4: no match by itself);
-/// - hypotheses * 2^66 frames * logChance() of the frame's codeword, or for IDs 5 sharpenings * 2^66 * the binomial tail
-///   of layer A's labels, each counted double;
+/// - hypotheses * 2^66 frames * logChance() of the frame's codeword, or for IDs 5 sharpenings * 2 sides * 2^66 * the
+///   binomial tail of layer A's labels, each counted double;
 /// - for bodies with the right tag the first one times bodies tried * 2^-40, counted double;
 /// - for an expected payload hypotheses * logChance() of its codeword, or 5 sharpenings * the tail of layer A's labels, or
 ///   the binomial tail of the pixels, each counted as often as there are such tests.
@@ -72,6 +72,6 @@ struct ReadRequest {
 /// `match` up to kMatchProbability, `inconclusive` up to kDoubtProbability or where couldHaveRead() says no, else
 /// `none`. With an expected ID or text, a mark that certainly carries another one is `none`, too.
 /// Fails like bitsOf() for an expected payload that cannot be one.
-[[nodiscard]] Result<MarkReading> readMark(RatioSource& source, const ReadRequest& request);
+[[nodiscard]] Result<MarkReading> readMark(BitSource& source, const ReadRequest& request);
 
 }  // namespace quadmark::robust

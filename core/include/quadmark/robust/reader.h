@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a mesh to log-likelihood ratios of coded bits, hypothesis by hypothesis (the robust scheme's reader).
+// From a mesh to soft coded bits, hypothesis by hypothesis (the robust scheme's reader).
 #pragma once
 
 #include <cstdint>
@@ -39,20 +39,20 @@ class MeshReader {
   MeshReader(MeshReader&&) noexcept;
 
   /// Hands hypotheses to `accept`, likeliest first, until it returns true: layer A, layer B, the remaining scales of
-  /// layer B, sums of both layers, sharpened readings. May be called once.
+  /// layer B, sums of both layers, sharpened readings, the mesh turned over. May be called once.
   /// @return whether accept returned true.
   bool search(const ReadLimits& limits, const AcceptHead& accept);
 
-  /// Ratios of the head under one hypothesis again (or under one of the caller's own).
-  [[nodiscard]] std::vector<float> headRatios(const Hypothesis& hypothesis);
-  /// Ratios of the body under a hypothesis of Sharing::split.
-  [[nodiscard]] std::vector<float> bodyRatios(const Hypothesis& hypothesis, const StreamCode& body);
+  /// The head under one hypothesis again (or under one of the caller's own).
+  [[nodiscard]] SoftBits headBits(const Hypothesis& hypothesis);
+  /// The body under a hypothesis of Sharing::split.
+  [[nodiscard]] SoftBits bodyBits(const Hypothesis& hypothesis, const StreamCode& body);
   /// All hypotheses that search() goes through, in its order: for bodies, where the best one for the head need not be
   /// the best one for the rest.
   [[nodiscard]] static std::vector<Hypothesis> hypotheses(const ReadLimits& limits);
 
   /// Layer A's votes against an expected payload: one per distinct label and coordinate.
-  [[nodiscard]] Agreement ringAgreement(const CodedPayload& expected, double sharpening = 0);
+  [[nodiscard]] Agreement ringAgreement(const CodedPayload& expected, double sharpening = 0, bool mirrored = false);
   /// Layer B's votes: the sign of each coded bit's ratio where it is not 0, head and body together.
   [[nodiscard]] Agreement diamondAgreement(const CodedPayload& expected, const Hypothesis& hypothesis);
 
