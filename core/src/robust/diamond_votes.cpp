@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "likelihood.h"
+#include "median.h"
 #include "sorting.h"
 
 namespace quadmark::robust {
@@ -76,9 +77,7 @@ DiamondVotes::DiamondVotes(const Surface& surface, const std::vector<double>& po
     bin_[i] = static_cast<std::uint8_t>(std::min(kBins - 1, edgeBin) * 2 * kBins + std::min(2 * kBins - 1, spanBin));
   });
   if (count == 0) return;
-  std::vector<float> sorted = gap_;
-  std::nth_element(sorted.begin(), sorted.begin() + count / 2, sorted.end());
-  scale_ = std::max(static_cast<double>(sorted[count / 2]) / 0.693, 1e-300);
+  scale_ = std::max(medianOf(gap_) / 0.693, 1e-300);
 }
 
 // Where unmarked diamonds lie in the plane of ratios: those clearly not flat under this noise.
@@ -161,7 +160,7 @@ void DiamondVotes::addSymbols(const Constellation& constellation, const CellScor
   for (std::uint32_t g = 0; g < constellation.groups(); ++g) {
     if (constellation.slot(g, 0).stream != stream) continue;
     for (std::uint32_t t = 0; t < bits; ++t) out.bitOf.push_back(constellation.slot(g, t).bit);
-    const auto first = byMeaning.begin() + std::ptrdiff_t{g} * symbols;
+    const auto first = byMeaning.begin() + static_cast<std::ptrdiff_t>(std::size_t{g} * symbols);
     out.score.insert(out.score.end(), first, first + symbols);
   }
 }

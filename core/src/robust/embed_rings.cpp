@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
+
+#include "median.h"
 
 namespace quadmark::robust {
 namespace {
@@ -50,14 +53,14 @@ bool vetoed(const Vec3& from, const Vec3& to, const std::vector<double>& positio
 
 double chooseRingStep(const Carriers& carriers, const std::vector<double>& positions, const SymmetricTensor& tensor,
                       double diagonal) {
-  std::vector<double> radii;
+  std::vector<float> radii;
   RingFrame frame;
   for (std::uint32_t i = 0; i < carriers.count(); ++i)
-    if (ringFrame(positions, carriers.ring(i), tensor, frame)) radii.push_back(frame.radius);
+    if (ringFrame(positions, carriers.ring(i), tensor, frame)) radii.push_back(static_cast<float>(frame.radius));
   if (radii.empty()) return kRingSteps[0];
-  std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
+  const double median = medianOf(std::move(radii));
   for (const double step : kRingSteps)
-    if (step * radii[radii.size() / 2] >= kWantedStep * diagonal) return step;
+    if (step * median >= kWantedStep * diagonal) return step;
   return kRingSteps[std::size(kRingSteps) - 1];
 }
 

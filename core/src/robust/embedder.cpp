@@ -6,6 +6,7 @@
 #include "distortion_budget.h"
 #include "embed_diamonds.h"
 #include "embed_rings.h"
+#include "median.h"
 #include "quadmark/random.h"
 #include "quadmark/trig.h"
 #include "sorting.h"
@@ -86,17 +87,13 @@ constexpr double kQuantizationSigma = 1.76e-5;
 // cells that leave half as many slots again as it has bits, before coding.
 std::uint8_t chooseDelta(const std::vector<Diamond>& diamonds, const std::vector<double>& positions,
                          std::size_t bodyBits) {
-  std::vector<double> blur;
+  std::vector<float> blur;
   const double sigma = kQuantizationSigma * largestExtent(positions);
   DiamondShape s;
   for (const Diamond& q : diamonds)
     if (diamondShape(positions, q, s) && isUsable(ratiosOf(s)))
-      blur.push_back(std::max(s.edgeGain, s.spanGain) * sigma);
-  double median = 0;
-  if (!blur.empty()) {
-    std::nth_element(blur.begin(), blur.begin() + blur.size() / 2, blur.end());
-    median = blur[blur.size() / 2];
-  }
+      blur.push_back(static_cast<float>(std::max(s.edgeGain, s.spanGain) * sigma));
+  const double median = medianOf(std::move(blur));
   if (bodyBits == 0) return 5 * median <= kDeltas[0].delta ? 0 : 5 * median <= kDeltas[1].delta ? 1 : 2;
   for (const std::uint8_t c : {std::uint8_t{3}, std::uint8_t{4}}) {
     const std::size_t slots = std::size_t{kDeltas[c].groups()} * kDeltas[c].symbol * (16 - kHeadSixteenths) / 16;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "median.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace quadmark::robust {
+
+double medianOf(std::vector<float> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace quadmark::robust
