@@ -33,7 +33,8 @@ pictures=$(here bunny.glb nefertiti.glb ogre.glb igea-tristrips.ply)
 if [ -z "$only_tables" ]; then
   cmake --preset release >build/robust.log
   cmake --build --preset release --target quadmark_robust >>build/robust.log
-  # One model and key at a time, all models of the first key first: an interrupted run has whole keys.
+  # One model and key at a time, all models of the first key first: an interrupted run has whole keys. The tools take most
+  # of the time, and come last.
   list() {  # PAYLOAD STRENGTH ROWS KEY MODEL...
     local model
     for model in "${@:5}"; do echo "--payload $1 --strength $2 --rows $3 --keys $4 --results $results $model"; done
@@ -42,8 +43,10 @@ if [ -z "$only_tables" ]; then
     for key in $(seq "$keys"); do
       list id standard attacks "$key" $real $scans $parts $grids $subdivisions $coarse
       list image standard attacks "$key" $pictures
-      for strength in standard strong; do list id "$strength" tools "$key" $real; done
       list id invisible none "$key" $real
+    done
+    for key in $(seq "$keys"); do
+      for strength in standard strong; do list id "$strength" tools "$key" $real; done
     done
   } | xargs -P "$jobs" -L 1 build/native/bench/quadmark_robust >/dev/null 2>>build/robust.log
 fi
