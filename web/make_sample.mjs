@@ -23,7 +23,7 @@ const { bytes: marked } = await embed(original, { key, image: logo });
 // Half cut off, turned, sheared, in another order, and roughened: some pixels are wrong, the verdict is not.
 let damaged = marked;
 for (const step of [
-  { kind: 'noise', amount: 1.1e-4 }, { kind: 'crop', amount: 0.5 }, { kind: 'affine', variant: 'R' }, { kind: 'reorder', seed: 1 },
+  { kind: 'noise', amount: 1.8e-4 }, { kind: 'crop', amount: 0.5 }, { kind: 'affine', variant: 'R' }, { kind: 'reorder', seed: 1 },
 ]) {
   damaged = (await attack(damaged, { ...step, format: 'glb' })).bytes;
 }
@@ -34,6 +34,8 @@ for (const [name, model, read, expected] of [
   const { verdict } = await extract(model, { key: read });
   if (verdict !== expected) throw new Error(`the sample ${name}.glb reads as "${verdict}" with the key of ${read.owner}, expected "${expected}"`);
 }
+const shown = (await extract(damaged, { key, reference: await encodeImage(logo) })).report.ber;
+if (!(shown > 0.01 && shown < 0.1)) throw new Error(`of the damaged sample's pixels ${shown} are wrong: too few or too many to show what damage does`);
 mkdirSync(folder, { recursive: true });
 const write = (name, content) => writeFileSync(new URL(name, folder), content);
 write('marked.glb', marked);
