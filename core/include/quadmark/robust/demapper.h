@@ -40,8 +40,8 @@ class Demapper {
   std::vector<float> ratios_;
 };
 
-/// Rounds of Demapper::iterate() after which little changes. Measured on the bits of a 24 x 24 image of igea, simplified to
-/// .7: 7.5 % wrong without, 2.8 % after one round, none from three on.
+/// Rounds of Demapper::iterate() after which little changes. Measured on the bits of a 24 x 24 image of igea in fine cells of
+/// .010, simplified to .7: 7.5 % wrong without, 2.8 % after one round, none from three on.
 inline constexpr int kDemapperRounds = 6;
 
 }  // namespace quadmark::robust
