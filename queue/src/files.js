@@ -7,7 +7,7 @@ import { basename, dirname, join, relative, resolve, sep } from 'node:path';
 import { externalUris, QuadmarkError } from 'quadmark';
 
 /** An exception of node:fs as a QuadmarkError. */
-const ioError = (what, cause) => new QuadmarkError('io', `${what}: ${cause.code ?? cause.message}`, { cause });
+export const ioError = (what, cause) => new QuadmarkError('io', `${what}: ${cause.code ?? cause.message}`, { cause });
 
 /** Path of `name` below `root`; fails with `bad_option` for names that lead out of it. */
 export function inside(root, name) {

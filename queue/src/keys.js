@@ -3,7 +3,7 @@
 import { readdir } from 'node:fs/promises';
 import { join } from 'node:path';
 import { QuadmarkError } from 'quadmark';
-import { readInput } from './files.js';
+import { ioError, readInput } from './files.js';
 import { fingerprint } from './identity.js';
 
 /**
@@ -14,7 +14,7 @@ export async function findKey(directory, wanted) {
   try {
     names = await readdir(directory);
   } catch (cause) {
-    throw new QuadmarkError('io', `cannot list the keys in ${directory}: ${cause.code ?? cause.message}`, { cause });
+    throw ioError(`cannot list the keys in ${directory}`, cause);
   }
   for (const name of names.filter((item) => item.endsWith('.json')).sort()) {
     const text = (await readInput(join(directory, name))).toString();

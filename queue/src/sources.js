@@ -2,7 +2,7 @@
 // Where models come from: [{ input, output }], names relative to the roots.
 import { readdir, readFile } from 'node:fs/promises';
 import { join, posix, sep } from 'node:path';
-import { QuadmarkError } from 'quadmark';
+import { ioError } from './files.js';
 
 const MODEL = /\.(glb|gltf|ply)$/i;
 
@@ -12,7 +12,7 @@ async function list(directory, options) {
   try {
     return await readdir(directory, options);
   } catch (cause) {
-    throw new QuadmarkError('io', `cannot list ${directory}: ${cause.code ?? cause.message}`, { cause });
+    throw ioError(`cannot list ${directory}`, cause);
   }
 }
 
@@ -36,7 +36,7 @@ export async function fromList(file) {
   try {
     text = await readFile(file, 'utf8');
   } catch (cause) {
-    throw new QuadmarkError('io', `cannot read the list ${file}: ${cause.code ?? cause.message}`, { cause });
+    throw ioError(`cannot read the list ${file}`, cause);
   }
   return text.split(/\r?\n/).map((line) => line.trim()).filter((line) => line !== '' && !line.startsWith('#')).map(same);
 }
