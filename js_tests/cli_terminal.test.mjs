@@ -113,15 +113,17 @@ test('--jobs hands every option to its threads', async (t) => {
 });
 
 /** Output of a command line run on a terminal. */
-async function onTerminal(folder, args, env = {}) {
+async function onTerminal(folder, args, env) {
   const command = [process.execPath, cliFile, ...args].map((word) => `'${word}'`).join(' ');
-  return (await run('script', ['-qec', command, join(folder, 'typescript')], { cwd: folder, env: { TERM: 'xterm', ...env } })).stdout.toString();
+  return (await run('script', ['-qec', command, join(folder, 'typescript')], { cwd: folder, env })).stdout.toString();
 }
 
 test('on a terminal there are a progress bar and colours, unless NO_COLOR is set', { skip: await skipWithout('script') }, async (t) => {
   const { folder, cli } = await workspace(t);
   const embed = ['embed', 'a.glb', 'b.glb', '--out-dir', 'out', '--id', '1', '--key', 'key.json', '--force'];
-  const free = { NO_COLOR: undefined, FORCE_COLOR: undefined, NODE_DISABLE_COLORS: undefined };
+  // CI, TMUX, COLORTERM and others change what Node says of a terminal's colours: only these two are given.
+  const { PATH, HOME } = process.env;
+  const free = { ...Object.fromEntries(Object.keys(process.env).map((name) => [name, undefined])), TERM: 'xterm', PATH, HOME };
   for (const jobs of ['1', '2']) assert.match(await onTerminal(folder, [...embed, '--jobs', jobs], free), /\[[#-]{24}\] +\d+ %.*\.glb: \w+/);
   assert.doesNotMatch(await onTerminal(folder, [...embed, '--quiet'], free), /\[[#-]{24}\]/);
   assert.match(await onTerminal(folder, ['extract', 'out/a.glb', '--key', 'key.json'], free), /\x1b\[32mmatch/);
