@@ -4,7 +4,7 @@
 //   quadmark_robust [--keys FIRST-LAST] [--strength invisible|standard|strong] [--payload id|image]
 //                   [--rows attacks|tools|none] [--results FILE] MODEL...
 //
-// MODEL is as in robust_models.h. Prints, and appends to FILE, two kinds of lines; those that FILE has already are
+// MODEL is as in models.h. Prints, and appends to FILE, two kinds of lines; those that FILE has already are
 // neither computed nor written again:
 //   mark;MODEL;STRENGTH;PAYLOAD;KEY;VERTICES;CARRIERS;LABELS;CELLS;SNR dB;surface RMS %;largest move %;normals degrees;
 //   read;MODEL;STRENGTH;PAYLOAD;KEY;ROW;OUTCOME;LAYERS;PROBABILITY;BER;
@@ -29,7 +29,7 @@
 #include "quadmark/robust/marker.h"
 #include "quadmark/robust/mesh_source.h"
 #include "robust_attacks.h"
-#include "robust_models.h"
+#include "models.h"
 #include "robust_results.h"
 #include "surface_rms.h"
 

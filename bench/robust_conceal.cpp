@@ -20,7 +20,7 @@
 #include "robust/carriers.h"
 #include "robust/constellation.h"
 #include "robust/diamonds.h"
-#include "robust_models.h"
+#include "models.h"
 
 namespace {
 

@@ -17,9 +17,6 @@ using robust::MarkedMesh;
 using robust::Payload;
 using robust::RobustEmbedding;
 
-// A pixel whose log odds are below this is marked as unread, as in the other scheme.
-constexpr float kLeastRatio = 0.2f;
-
 Result<Payload> payloadOf(const EmbedRequest& request) {
   if (int{request.image.has_value()} + int{request.id.has_value()} + int{request.text.has_value()} != 1)
     return Error{ErrorCode::badOption, "give either an image or an id or a text to embed"};
@@ -55,7 +52,7 @@ void showImage(const robust::MarkReading& reading, ExtractResponse& response) {
   response.confidence.resize(image.bits.size());
   for (std::size_t i = 0; i < image.bits.size(); ++i) {
     const float ratio = reading.body->ratios[i] < 0 ? -reading.body->ratios[i] : reading.body->ratios[i];
-    response.erased[i] = ratio < kLeastRatio ? 1 : 0;
+    response.erased[i] = robust::isUnread(ratio) ? 1 : 0;
     if (response.erased[i] != 0) image.bits[i] = 0;
     const double odds = exactExp(-ratio);
     response.confidence[i] = static_cast<float>((1 - odds) / (1 + odds));  // |P(1) - P(0)|

@@ -82,6 +82,8 @@ struct BodyReading {
   std::vector<float> ratios;       ///< its log-likelihood ratio, positive where 0 is likelier
   bool exact = false;              ///< the tag confirms all bits; the ratios are then +-60
 };
+/// Whether a bit with this ratio counts as not read: its odds are next to even.
+[[nodiscard]] inline bool isUnread(float ratio) { return (ratio < 0 ? -ratio : ratio) < 0.2f; }
 /// Decodes a body as far as it goes: without a right tag each bit is the likeliest one by itself.
 /// @param coded  what is known of the coded bits of bodyCode(shape).
 /// @param scale  factor on it, as for Demapper.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "robust_models.h"
+#include "models.h"
 
 #include <cstdlib>
 #include <fstream>
