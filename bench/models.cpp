@@ -38,9 +38,10 @@ Result<NamedModel> loadModel(const std::string& name) {
     return out;
   }
   std::ifstream stream(name, std::ios::binary);
+  if (!stream) return Error{ErrorCode::io, "cannot read " + name};
   out.bytes = {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   auto model = readModel(out.bytes);
-  if (!model) return model.error();
+  if (!model) return Error{model.error().code, out.name + ": " + model.error().message};
   out.mesh = std::move((*model)->mesh());
   return out;
 }
