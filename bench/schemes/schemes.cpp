@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <utility>
+
 #include "../peers/peers.h"
 #include "ours.h"
 #include "scheme.h"
@@ -10,6 +12,7 @@ const std::vector<std::unique_ptr<Scheme>>& schemes() {
     std::vector<std::unique_ptr<Scheme>> all;
     all.push_back(makeRobust());
     all.push_back(makePaper());
+    for (auto& peer : peers()) all.push_back(std::move(peer));
     return all;
   }();
   return list;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "keyed_bits.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include "../schemes/secret.h"
+#include "quadmark/random.h"
+
+namespace quadmark::bench {
+namespace {
+
+Prf keyedBy(std::uint64_t key, std::string_view purpose, const char* use) {
+  return {secretOf(key, "peer"), std::string(purpose) + use};
+}
+
+}  // namespace
+
+KeyedBits::KeyedBits(std::uint64_t key, std::string_view purpose, std::size_t count) : order_(count), pad_(count) {
+  const Prf padding = keyedBy(key, purpose, " pad");
+  for (std::size_t i = 0; i < count; ++i) pad_[i] = static_cast<std::uint8_t>(padding(i) & 1);
+  std::iota(order_.begin(), order_.end(), 0u);
+  Random random(keyedBy(key, purpose, " order")(count));
+  shuffle(order_, random);
+}
+
+void BitVotes::add(std::uint64_t carrier, double weight) {
+  if (weight == 0) return;
+  const std::size_t bit = bits_.bitAt(carrier);
+  sums_[bit] += weight;
+  heard_[bit] = 1;
+}
+
+TrialReading BitVotes::reading() const {
+  TrialReading out;
+  if (std::count(heard_.begin(), heard_.end(), 0) == static_cast<std::ptrdiff_t>(heard_.size())) return out;
+  out.bits.assign(sums_.size(), 0);
+  out.unread.assign(sums_.size(), 0);
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    if (heard_[i] == 0 || sums_[i] == 0) {
+      out.unread[i] = 1;
+    } else {
+      out.bits[i] = bits_.padded(i, sums_[i] > 0 ? 1 : 0) ? 1 : 0;
+    }
+  }
+  return out;
+}
+
+}  // namespace quadmark::bench

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "peers.h"
+
+namespace quadmark::bench {
+
+std::vector<std::unique_ptr<Peer>> peers() {
+  std::vector<std::unique_ptr<Peer>> out;
+  for (const auto make : {choMean, choVariance}) out.push_back(make());
+  return out;
+}
+
+}  // namespace quadmark::bench
