@@ -2,18 +2,20 @@
 // The 3D view: it draws, turns and colours; its readers number vertices as the core does.
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
+import draco3d from 'draco3dgltf';
 import { createKey, embed, extract, inspect } from 'quadmark';
 import { attack, generate } from 'quadmark/lab';
-import { NotDrawable } from '../web/src/view3d/geometry/not_drawable.js';
 import { readGeometry } from '../web/src/view3d/geometry/index.js';
 import { displacementColours, evidenceColours } from '../web/src/view3d/heat.js';
 import { assertQuiet, drop, onDisk, openPage, screenshot, startBrowser, waitFor, waitForView } from './page_helpers.mjs';
-import { compressGlb } from './support/draco.mjs';
+import { compressGlb, encodeDraco, meshOf } from './support/draco.mjs';
 import { allRealModels, readModelFiles } from './support/files.mjs';
+import { makeGlb, openGltf } from './support/gltf.mjs';
 import { logo } from './support/marks.mjs';
 
 const browser = await startBrowser(after);
 const key = await createKey({ owner: 'the view' });
+const openDraco = () => draco3d.createDecoderModule();
 
 /** { covered, colours }: share of the stage that shows the model, and mean colour of it. */
 function look(page, id = 'view') {
@@ -104,40 +106,94 @@ test('each node has its share of the evidence', async (t) => {
   assert.match(await page.locator('#view').innerText(), /There is no evidence to show/);
 });
 
-test('what the view cannot draw is said, and the verdict stays', async (t) => {
+test('Draco is drawn with its evidence, by a decoder fetched for it; without that decoder it is said', async (t) => {
   const { page, seen } = await openPage(t, browser);
   const { bytes } = await generate({ name: 'sculpture', vertices: 8000, format: 'glb' });
-  const marked = await embed(bytes, { key, id: '1' });
-  await drop(page, onDisk(t, { 'packed.glb': compressGlb(Buffer.from(marked.bytes), { bits: 16 }), 'key.json': key }).paths);
-  await waitFor(page, 'match', 'none', 'inconclusive');
-  assert.equal(await waitForView(page), 'failed');
-  assert.match(await page.locator('#view').innerText(), /^The model cannot be drawn here: the view does not decompress Draco\. The verdict does not depend on it\.$/);
+  const marked = Buffer.from((await embed(bytes, { key, id: '1' })).bytes);
+  const { positions, indices } = meshOf(marked);
+  const files = { 'packed.glb': compressGlb(marked), 'bare.drc': encodeDraco({ POSITION: [positions, 3] }, indices).bytes };
+  const isDecoder = (url) => /draco_decoder[^/]*\.(js|wasm)$/.test(url);
+  for (const [name, file] of Object.entries(files)) {
+    await page.reload();
+    seen.requests.length = 0;
+    await drop(page, onDisk(t, { [name]: file, 'key.json': key }).paths);
+    await waitFor(page, 'match');
+    assert.deepEqual(seen.requests.filter(isDecoder), [], 'not for the verdict');
+    assert.equal(await waitForView(page), 'ready', name);
+    await page.locator('.view-print').waitFor({ state: 'attached' });
+    const { covered, blue } = await look(page);
+    assert.ok(covered > 0.1 && blue > 0.1, `${name}: ${covered}, ${blue}`);
+    assert.equal(seen.requests.filter(isDecoder).length, 2, 'script and wasm');
+    await screenshot(page, `32-view-${name.replace('.', '-')}`);
+  }
   assertQuiet(seen, browser.url);
+  await browser.context.route(/draco_decoder[^/]*\.wasm$/, (route) => route.fulfill({ status: 404, body: 'gone' }));
+  t.after(() => browser.context.unroute(/draco_decoder[^/]*\.wasm$/));
+  await page.reload();
+  await drop(page, onDisk(t, { 'packed.glb': files['packed.glb'], 'key.json': key }).paths);
+  await waitFor(page, 'match');
+  assert.equal(await waitForView(page), 'failed');
+  assert.match(await page.locator('#view').innerText(), /^The model cannot be drawn here: .*\. The verdict does not depend on it\.$/);
 });
 
-test('vertices are numbered as the evidence is, for every model that can be drawn', async (t) => {
-  let drawn = 0;
-  for (const { name, path } of allRealModels(t)) {
+test('vertices are numbered as the evidence is, for every model', async (t) => {
+  const models = allRealModels(t);
+  for (const { name, path } of models) {
     const { model, resources } = await readModelFiles(path);
     const report = await inspect(model, { resources });
-    let geometry;
-    try {
-      geometry = await readGeometry(new Uint8Array(model), async (uri) => new Uint8Array(resources[uri]));
-    } catch (error) {
-      assert.ok(error instanceof NotDrawable, `${name}: ${error.stack}`);
-      assert.match(error.message, /^noDraco$/, `${name}: ${error.cause?.stack}`);
-      continue;
-    }
-    if (geometry.vertexCount !== 0) assert.equal(geometry.vertexCount, report.vertices, name);
-    else t.diagnostic(`${name}: drawn plain`);
-    const corners = geometry.pieces.reduce((sum, { triangles, positions }) => {
+    const { pieces, vertexCount } = await readGeometry(new Uint8Array(model), async (uri) => new Uint8Array(resources[uri]), openDraco);
+    assert.equal(vertexCount, report.vertices, name);
+    let corners = 0;
+    for (const { triangles, positions, numbers } of pieces) {
       assert.ok(triangles.every((corner) => corner < positions.length / 3), `${name}: corners are vertices`);
-      return sum + triangles.length;
-    }, 0);
+      assert.ok(numbers.length === positions.length / 3 && numbers.every((number) => number < vertexCount), `${name}: each has a number`);
+      corners += triangles.length;
+    }
     assert.ok(corners > 0, name);
-    ++drawn;
   }
-  t.diagnostic(`${drawn} real models`);
+  t.diagnostic(`${models.length} real models`);
+});
+
+/** A GLB of one primitive with its positions in a sparse accessor: over zeros, or over other positions. */
+function sparseGlb(glb, { overZeros }) {
+  const { json, bin } = openGltf(glb);
+  const { count, positions } = meshOf(glb);
+  const accessor = json.accessors[json.meshes[0].primitives[0].attributes.POSITION];
+  const replaced = Uint32Array.from({ length: count }, (_, i) => i).filter((i) => overZeros || i % 3 === 0);
+  const values = Float32Array.from({ length: 3 * replaced.length }, (_, i) => positions[3 * replaced[Math.floor(i / 3)] + i % 3]);
+  const base = positions.map((value, i) => (i % 9 < 3 ? value + 1 : value));
+  const parts = [bin];
+  const add = (array) => {
+    const byteOffset = parts.reduce((sum, part) => sum + part.length, 0);
+    parts.push(Buffer.from(array.buffer));
+    return json.bufferViews.push({ buffer: 0, byteOffset, byteLength: array.byteLength }) - 1;
+  };
+  if (overZeros) delete accessor.bufferView;
+  else Object.assign(accessor, { bufferView: add(base), byteOffset: 0 });
+  accessor.sparse = { count: replaced.length, indices: { bufferView: add(replaced), componentType: 5125 }, values: { bufferView: add(values) } };
+  const data = Buffer.concat(parts);
+  json.buffers = [{ byteLength: data.length }];
+  return makeGlb(json, data);
+}
+
+test('evidence lies at the same places however a model is stored: plain, Draco, sparse', async () => {
+  const { bytes } = await generate({ name: 'sculpture', vertices: 8000, format: 'glb' });
+  const plain = Buffer.from((await embed(bytes, { key, id: '1' })).bytes);
+  const { positions, indices } = meshOf(plain);
+  const placed = async (file) => {
+    const { evidence, verdict } = await extract(file, { key });
+    assert.equal(verdict, 'match');
+    const { pieces: [piece], vertexCount } = await readGeometry(new Uint8Array(file), null, openDraco);
+    assert.equal(vertexCount, evidence.length);
+    return Array.from(piece.numbers, (number, i) => `${piece.positions.subarray(3 * i, 3 * i + 3).join()}: ${evidence[number]}`).sort();
+  };
+  const expected = await placed(plain);
+  assert.ok(expected.some((line) => !line.endsWith(': 0')));
+  const stored = {
+    'Draco in glTF': compressGlb(plain), 'bare Draco': encodeDraco({ POSITION: [positions, 3] }, indices).bytes,
+    'sparse over zeros': sparseGlb(plain, { overZeros: true }), 'sparse over others': sparseGlb(plain, { overZeros: false }),
+  };
+  for (const [how, file] of Object.entries(stored)) assert.deepEqual(await placed(file), expected, how);
 });
 
 test('evidence lies where the mark is read', async () => {

@@ -19,21 +19,21 @@ let canvas = null;
 let drawing = false;
 let resting = 0;
 
+const openDraco = async () => (await import('./draco_decoder.js')).openDracoDecoder();
+
 async function read({ model, parts }) {
   const bytes = new Uint8Array(await model.file.arrayBuffer());
   return readGeometry(bytes, async (uri) => {
     const part = findPart(uri, model.path, parts);
     if (!part) throw new NotDrawable('noShape');
     return new Uint8Array(await part.file.arrayBuffer());
-  });
+  }, openDraco);
 }
 
 /** Colours by evidence; whether there was any that fits this model. */
 function colourEvidence({ pieces, vertexCount }, evidence) {
   if (evidence.length === 0 || vertexCount !== evidence.length) return false;
-  for (const piece of pieces) {
-    piece.colours = evidenceColours(evidence.subarray(piece.first, piece.first + piece.positions.length / 3), piece.triangles);
-  }
+  for (const piece of pieces) piece.colours = evidenceColours(Float32Array.from(piece.numbers, (number) => evidence[number]), piece.triangles);
   return true;
 }
 

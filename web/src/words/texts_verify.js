@@ -129,7 +129,6 @@ export const VERIFY_TEXTS = {
   viewLoading: ['Drawing the model …', 'Das Modell wird gezeichnet …'],
   viewFailed: [(why) => `The model cannot be drawn here: ${why} The verdict does not depend on it.`, (why) => `Das Modell lässt sich hier nicht zeichnen: ${why} Das Urteil hängt nicht davon ab.`],
   noWebgl: ['this browser offers no WebGL.', 'dieser Browser bietet kein WebGL.'],
-  noDraco: ['the view does not decompress Draco.', 'die Ansicht entpackt kein Draco.'],
   noShape: ['its layout is too unusual for the view.', 'sein Aufbau ist für die Ansicht zu ungewöhnlich.'],
   shadeEvidence: ['Evidence', 'Belege'],
   shadePlain: ['Plain', 'Schlicht'],

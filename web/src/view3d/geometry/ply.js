@@ -82,6 +82,7 @@ export function readPly(bytes) {
       }
     }
   }
-  const piece = { positions, triangles: Uint32Array.from(triangles), normals: null, first: 0, matrix: IDENTITY };
-  return { pieces: [piece], vertexCount: positions.length / 3 };
+  const vertexCount = positions.length / 3;
+  const numbers = Uint32Array.from({ length: vertexCount }, (_, i) => i);
+  return { pieces: [{ positions, triangles: Uint32Array.from(triangles), normals: null, numbers, matrix: IDENTITY }], vertexCount };
 }
