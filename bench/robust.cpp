@@ -160,7 +160,7 @@ void runKey(const bench::NamedModel& model, int key, const Settings& settings, b
     const RobustEmbedding& e = marked->embedding;
     results.add(keyOf("mark", ""),
                 {std::to_string(model.mesh.vertexCount()), std::to_string(e.carriers), std::to_string(e.labels),
-                 std::to_string(e.cells), text(d.snrDb), text(100 * bench::surfaceRmsRel(model.mesh, copy.positions)),
+                 std::to_string(e.cells), text(d.snrDb), text(100 * bench::surfaceRms(model.mesh, copy.positions).meanRel),
                  text(100 * d.maxRel), text(d.meanNormalDeg)});
   }
   for (const auto& attack : attacks)

@@ -19,6 +19,7 @@ std::string partOf(const std::string& stem) {
   static const std::map<std::string, std::string> parts = {
       {"embedder", "embed"},         {"ring_sets", "cells"},     {"hausdorff", "metrics"},
       {"point_triangle", "metrics"}, {"key_file", "key_file"},   {"surface_distance", "metrics"},
+      {"triangle_tree", "metrics"},
       {"exact_math", "exact_math"},  {"stb_image", "stb_image"}, {"stb_image_write", "stb_image"}};
   const auto found = parts.find(stem);
   return found != parts.end() ? found->second : stem.substr(0, stem.find('_'));

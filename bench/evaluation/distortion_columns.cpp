@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "distortion_columns.h"
 
-#include "quadmark/metrics.h"
-#include "surface_rms.h"
+#include "distortion/measures.h"
 
 namespace quadmark::bench {
 
 std::vector<std::pair<std::string, double>> distortionColumns(const Mesh& original, const Mesh& marked) {
-  const Distortion d = distortion(original, marked);
-  return {{"hausdorff", d.hausdorffRel}, {"rms", surfaceRmsRel(original, marked.positions)},
-          {"max", d.maxRel},             {"snr", d.snrDb},
-          {"psnr", d.normalPsnrDb},      {"normals", d.meanNormalDeg}};
+  const Measures m = measure(original, marked.positions);
+  return {{"hausdorff", m.hausdorffRel}, {"rms", m.rmsRel},         {"max", m.maxRel},    {"snr", m.snrDb},
+          {"psnr", m.psnrDb},            {"normals", m.normalsDeg}, {"msdm2", m.msdm2}};
 }
 
 }  // namespace quadmark::bench

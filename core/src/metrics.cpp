@@ -14,11 +14,7 @@ namespace quadmark {
 namespace {
 
 using detail::Point;
-
-Point pointAt(const std::vector<double>& positions, std::size_t vertex) {
-  const double* p = &positions[3 * vertex];
-  return {p[0], p[1], p[2]};
-}
+using detail::pointAt;
 
 std::vector<std::uint8_t> usedVertices(const Mesh& mesh) {
   std::vector<std::uint8_t> used(mesh.vertexCount(), 0);

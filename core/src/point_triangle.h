@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 namespace quadmark::detail {
 
@@ -26,6 +28,12 @@ inline Point cross(const Point& a, const Point& b) {
 }
 inline double squared(const Point& a) {
   return dot(a, a);
+}
+
+/// @param positions  3 per vertex.
+inline Point pointAt(const std::vector<double>& positions, std::size_t vertex) {
+  const double* p = &positions[3 * vertex];
+  return {p[0], p[1], p[2]};
 }
 
 inline double squaredToSegment(const Point& p, const Point& a, const Point& b) {

@@ -11,10 +11,7 @@ namespace quadmark::bench {
 namespace {
 
 using detail::Point;
-
-Point pointAt(const std::vector<double>& positions, std::size_t v) {
-  return {positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
-}
+using detail::pointAt;
 
 // Mean squared distance from the vertices of `from` to the surface of `to`.
 double meanSquare(const Mesh& mesh, const WeldedMesh& welded, const FaceRings& rings, const std::vector<double>& from,
@@ -44,12 +41,13 @@ double meanSquare(const Mesh& mesh, const WeldedMesh& welded, const FaceRings& r
 
 }  // namespace
 
-double surfaceRmsRel(const Mesh& mesh, const std::vector<double>& marked) {
+SurfaceRms surfaceRms(const Mesh& mesh, const std::vector<double>& marked) {
   const WeldedMesh welded = weld(mesh);
   const FaceRings rings = faceRings(mesh, welded);
   const double there = meanSquare(mesh, welded, rings, mesh.positions, marked);
   const double back = meanSquare(mesh, welded, rings, marked, mesh.positions);
-  return std::sqrt((there + back) / 2) / boundingDiagonal(mesh);
+  const double diagonal = boundingDiagonal(mesh);
+  return {std::sqrt((there + back) / 2) / diagonal, std::sqrt(std::max(there, back)) / diagonal};
 }
 
 }  // namespace quadmark::bench
