@@ -135,7 +135,7 @@ Result<Mesh> applyStep(const Mesh& mesh, lab::AttackSpec spec, std::uint64_t see
     for (int i = 1; i < static_cast<int>(spec.amount); ++i) out = subdivided(out);
     return out;
   }
-  spec.seed = seed;
+  spec.seed = spec.kind == "reorder" ? Random::mix(seed + static_cast<std::uint64_t>(std::fabs(spec.amount))) : seed;
   return lab::attack(mesh, spec);
 }
 

@@ -11,7 +11,8 @@ namespace quadmark::bench {
 
 /// Attacks one after the other, as results spell them: steps `kind:amount[:variant[:iterations]]` joined by '+', such as
 /// "simplify:0.1+quantize:14" or "smooth:0.03:laplacian:10"; an amount that does not count is left empty ("affine::CB"),
-/// nothing behind it is needed ("reorder"). Kinds are those of lab/attacks.h and
+/// nothing behind it is needed ("reorder"). Kinds are those of lab/attacks.h, where the amount of `reorder` tells one order
+/// from another, and
 ///   none         the mesh as it is, with no other step
 ///   liris-noise  uniform noise in [-amount, amount] * mean distance of the used vertices to their centre (the LIRIS
 ///                benchmark's unit; that of `noise` is the diagonal)

@@ -8,6 +8,7 @@
 //   async run(context)      work of its own, after all jobs: rows by context.rows.add(), leaving out what context.rows.has();
 //                           stops early when context.signal is aborted. Returns errors as sentences. May be absent.
 //   async tools(context)    { name: version } of the programs that run() uses, for machine.json. May be absent.
+//   losses(context)         [{ where, ours, theirs }]: where we lose to a peer or to the paper, for the conclusion. May be absent.
 //   document(context)       Markdown of its section, without the heading, from context.rows alone
 //
 // A context is
@@ -19,6 +20,13 @@
 //   parallel   how many processes may work at once
 //   signal     AbortSignal of Ctrl-C
 //   progress   { expect(count): that many steps are to come, update(label, share), ended(label) }
+import * as fig5 from './experiments/fig5.mjs';
+import * as fig9 from './experiments/fig9.mjs';
+import * as fig10 from './experiments/fig10.mjs';
+import * as fig11 from './experiments/fig11.mjs';
 import * as table1 from './experiments/table1.mjs';
+import * as table2 from './experiments/table2.mjs';
+import * as table3 from './experiments/table3.mjs';
+import * as table4 from './experiments/table4.mjs';
 
-export const experiments = [table1];
+export const experiments = [table1, table2, table3, table4, fig5, fig9, fig10, fig11];

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Runs jobs on several workers at once, seed by seed, leaving out what the rows have already.
+import { existsSync, mkdirSync } from 'node:fs';
+import { dirname } from 'node:path';
 import { isPresent, modelPath } from './models.mjs';
 import { Worker } from './worker.mjs';
 
 const placeOf = ({ scheme, settings, payload, model, seed }) => ({ scheme, settings, payload, model, seed });
+
+const isRefused = (rows, place) => rows.select({ ...place, attack: 'mark', outcome: 'refused' }).length > 0;
 
 /**
  * What is left of the jobs: one per scheme, settings, payload, model and seed, with all attacks that any experiment asks
@@ -20,6 +24,8 @@ export function openJobs(jobs, rows) {
     merged.set(name, one);
     for (const attack of job.attacks) if (!rows.has({ ...place, attack })) one.attacks.add(attack);
     for (const [attack, file] of Object.entries(job.pictures ?? {})) {
+      if (existsSync(file) || isRefused(rows, place)) continue;
+      mkdirSync(dirname(file), { recursive: true });
       one.pictures[attack] = file;
       one.attacks.add(attack);
     }
