@@ -78,15 +78,18 @@ class Steps {
 
 async function measure(context, about) {
   const usual = new Map(about.schemes.map((scheme) => [scheme.name, scheme.usualSettings]));
-  const asked = chosen.flatMap((experiment) => experiment.jobs?.(context) ?? [])
-    .map((job) => ({ ...job, settings: job.settings ?? usual.get(job.scheme) }));
-  const jobs = openJobs(asked, context.rows);
   const label = (job) => `${job.scheme} ${job.model} ${job.seed}`;
-  context.progress.expect(jobs.length);
-  const errors = await runJobs(jobs, {
-    ...context,
-    progress: (done, job) => (done < 1 ? context.progress.update(label(job), done) : context.progress.ended(label(job))),
-  });
+  const progress = (done, job) => (done < 1 ? context.progress.update(label(job), done) : context.progress.ended(label(job)));
+  const errors = [], tried = new Set();
+  while (!context.signal.aborted) {
+    const asked = chosen.flatMap((experiment) => experiment.jobs?.(context) ?? [])
+      .map((job) => ({ ...job, settings: job.settings ?? usual.get(job.scheme) }));
+    const jobs = openJobs(asked, context.rows).filter((job) => !tried.has(JSON.stringify(job)));
+    if (jobs.length === 0) break;
+    for (const job of jobs) tried.add(JSON.stringify(job));  // what failed fails again
+    context.progress.expect(jobs.length);
+    errors.push(...(await runJobs(jobs, { ...context, progress })));
+  }
   for (const experiment of chosen) {
     if (!context.signal.aborted && experiment.run) errors.push(...(await experiment.run(context)));
   }

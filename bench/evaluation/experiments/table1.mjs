@@ -17,6 +17,21 @@ const cases = ({ quick }) => (quick
 
 export const jobs = (context) => cases(context).flatMap((one) => context.seeds.map((seed) => ({ scheme: 'paper', ...one, seed, attacks: [] })));
 
+const MEASURES = [  // column, what the paper prints of it, whether more is better, as text
+  ['capacity', 'capacity', true, (x) => `${x.toFixed(0)} bits`], ['hausdorff', 'Hausdorff distance', false, (x) => `${(1000 * x).toFixed(3)}e-3`],
+  ['snr', 'SNR', true, (x) => `${x.toFixed(1)} dB`],
+];
+
+export const losses = (context) => cases(context).filter(({ model }) => PAPER[model]).flatMap((one) => {
+  const [printed, capacity, hausdorff, snr] = PAPER[one.model];
+  return MEASURES.flatMap(([column, words, more, show]) => {
+    const values = context.rows.select({ scheme: 'paper', ...one, attack: 'mark' }).map((row) => row[column]).filter((x) => x !== undefined);
+    const ours = values.reduce((sum, x) => sum + x, 0) / values.length, theirs = { capacity, hausdorff: hausdorff / 1000, snr }[column];
+    if (values.length === 0 || (more ? ours >= theirs : ours <= theirs)) return [];
+    return [{ where: `Table I: ${printed}, ${words}`, ours: `\`paper\` ${show(ours)} (${values.length})`, theirs: `the paper ${show(theirs)}` }];
+  });
+});
+
 export function document(context) {
   const rows = cases(context).filter(({ model }) => isPresent(model)).map((one) => {
     const marks = context.rows.select({ scheme: 'paper', ...one, attack: 'mark' });
