@@ -6,6 +6,8 @@
 //   quadmark_evaluate mark SCHEME SETTINGS PAYLOAD MODEL SEED OUT       writes a marked .glb or .ply; prints the mark's row
 //   quadmark_evaluate read SCHEME SETTINGS PAYLOAD FILE SEED [PICTURE]  prints outcome, ber, unread and claim; the PNG of
 //                                                                       an image as it was read
+//   quadmark_evaluate chance SCHEME SETTINGS MARK MODEL FIRST COUNT   trials without the reader's mark (chance.h);
+//                                                                       MARK "": of no scheme. Prints their claims by bins
 //
 // MODEL is as in models.h, the other words are as in bench/README.md; SETTINGS may be "" for the scheme's usual ones.
 // Everything printed is a JSON object a line, with the columns of bench/README.md. A job is
@@ -22,6 +24,7 @@
 
 #include <nlohmann/json.hpp>
 #include "attack_chain.h"
+#include "chance.h"
 #include "distortion_columns.h"
 #include "models.h"
 #include "quadmark/image.h"
@@ -180,6 +183,24 @@ int read(const Trial& trial, const std::string& file, const std::string& picture
   return 0;
 }
 
+int chance(const std::vector<std::string>& words) {
+  const auto model = loadModel(words[4]);
+  if (!model) return fail(model.error());
+  const auto number = [&](std::size_t at) { return std::strtoull(words[at].c_str(), nullptr, 10); };
+  const auto bins = countChance({words[1], words[2], words[3], number(5), number(6)}, model->mesh);
+  Json line = Json::object();
+  if (bins) {
+    for (const auto& [bin, content] : *bins)
+      line["bins"][std::to_string(bin)] = {{"trials", content.trials}, {"matches", content.matches}};
+  } else if (isRefusal(bins.error())) {
+    addFailure(line, "refused", bins.error());
+  } else {
+    return fail(bins.error());
+  }
+  print(line);
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -187,6 +208,7 @@ int main(int argc, char** argv) {
   const std::string command = words.empty() ? "" : words[0];
   if (command == "about" && words.size() == 1) return about();
   if (command == "run" && words.size() == 1) return runJobs();
+  if (command == "chance" && words.size() == 7) return chance(words);
   if ((command == "mark" && words.size() == 7) || (command == "read" && (words.size() == 6 || words.size() == 7))) {
     const auto trial = makeTrial(words[1], words[2], words[3], std::strtoull(words[5].c_str(), nullptr, 10));
     if (!trial) return fail(trial.error());
@@ -194,6 +216,7 @@ int main(int argc, char** argv) {
     return read(*trial, words[4], words.size() == 7 ? words[6] : "");
   }
   std::fprintf(stderr, "usage: quadmark_evaluate about | run | mark SCHEME SETTINGS PAYLOAD MODEL SEED OUT | "
-                       "read SCHEME SETTINGS PAYLOAD FILE SEED [PICTURE]\n");
+                       "read SCHEME SETTINGS PAYLOAD FILE SEED [PICTURE] | "
+                       "chance SCHEME SETTINGS MARK MODEL FIRST COUNT\n");
   return 2;
 }
