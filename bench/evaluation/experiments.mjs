@@ -22,6 +22,7 @@
 //   signal     AbortSignal of Ctrl-C
 //   progress   { expect(count): that many steps are to come, update(label, share), ended(label) }
 import * as distortion from './experiments/distortion.mjs';
+import * as chance from './experiments/chance.mjs';
 import * as fig5 from './experiments/fig5.mjs';
 import * as fig9 from './experiments/fig9.mjs';
 import * as fig10 from './experiments/fig10.mjs';
@@ -33,4 +34,4 @@ import * as table2 from './experiments/table2.mjs';
 import * as table3 from './experiments/table3.mjs';
 import * as table4 from './experiments/table4.mjs';
 
-export const experiments = [table1, table2, table3, table4, fig5, fig9, fig10, fig11, models, liris, distortion];
+export const experiments = [table1, table2, table3, table4, fig5, fig9, fig10, fig11, models, liris, distortion, chance];
