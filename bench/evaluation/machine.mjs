@@ -23,8 +23,8 @@ function commit() {
   }
 }
 
-/** @param about  what the worker says of itself; @param tools  { name: version } of the programs that were run */
-export function describeMachine(about, tools) {
+/** @param about  what the worker says of itself */
+export function describeMachine(about) {
   return {
     date: new Date().toISOString().slice(0, 10),
     commit: commit(),
@@ -35,6 +35,5 @@ export function describeMachine(about, tools) {
     compiler: about.compiler,
     node: process.versions.node,
     quadmark: about.version,
-    tools,
   };
 }

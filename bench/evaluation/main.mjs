@@ -107,11 +107,12 @@ const context = {
   quick: options.quick ?? false, seeds, schemes: about.schemes, rows, folder, parallel: options.jobs,
   signal: interrupt.signal, progress: new Steps(),
 };
+const started = describeMachine(about);  // of the commit that measures, whatever is committed meanwhile
 const errors = options.document ? [] : await measure(context, about);
 rows.sort();
 if (rows.added > 0 || !existsSync(machineFile)) {
   const tools = Object.assign({}, ...(await Promise.all(chosen.map((experiment) => experiment.tools?.(context) ?? {}))));
-  writeFileSync(machineFile, `${JSON.stringify(describeMachine(about, tools), null, 2)}\n`);
+  writeFileSync(machineFile, `${JSON.stringify({ ...started, tools }, null, 2)}\n`);
 }
 writeDocument(documentFile, { ...context, experiments, machine: JSON.parse(readFileSync(machineFile, 'utf8')) });
 console.log(`${rows.added} rows measured, ${rows.select().length} in ${rowsFile}; ${documentFile}`);
