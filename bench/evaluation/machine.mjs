@@ -35,5 +35,6 @@ export function describeMachine(about) {
     compiler: about.compiler,
     node: process.versions.node,
     quadmark: about.version,
+    schemes: about.schemes,
   };
 }

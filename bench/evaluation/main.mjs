@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // bench/evaluate: schemes x payloads x models x attacks x seeds. Rows and machine go to bench/results/, docs/evaluation.md is
 // made of them. What has a row is not measured again: an interrupted run goes on where it stopped.
-import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { join, resolve } from 'node:path';
 import { Command, InvalidArgumentError } from 'commander';
 import { ProgressBar } from '../../node/src/cli/progress.js';
+import { machineFile, recordedContext, rowsFile } from './context.mjs';
 import { writeDocument } from './document.mjs';
 import { experiments } from './experiments.mjs';
 import { describeMachine } from './machine.mjs';
@@ -44,7 +45,6 @@ const chosen = options.experiment ?? experiments;
 const seeds = Array.from({ length: options.seeds ?? (options.quick ? 1 : FULL_SEEDS) }, (_, i) => i + 1);
 const folder = resolve(options.out ?? join(repository, options.quick ? 'build/evaluation/quick' : 'bench/results'));
 const documentFile = options.quick || options.out ? join(folder, 'evaluation.md') : join(repository, 'docs/evaluation.md');
-const machineFile = join(folder, 'machine.json');
 mkdirSync(folder, { recursive: true });
 
 const interrupt = new AbortController();
@@ -96,25 +96,29 @@ async function measure(context, about) {
   return errors;
 }
 
-const about = await askWorker('about');
-const rowsFile = join(folder, 'readings.csv');
-if (options.anew) rmSync(rowsFile, { force: true });
-const rows = new Rows(rowsFile);
-for (const path of options.add ?? []) {
-  for (const row of new Rows(path).select()) if (!rows.has(row)) rows.add(row);
+async function measureAll() {
+  const about = await askWorker('about');
+  if (options.anew) rmSync(rowsFile(folder), { force: true });
+  const rows = new Rows(rowsFile(folder));
+  for (const path of options.add ?? []) {
+    for (const row of new Rows(path).select()) if (!rows.has(row)) rows.add(row);
+  }
+  const context = {
+    quick: options.quick ?? false, seeds, schemes: about.schemes, rows, folder, parallel: options.jobs,
+    signal: interrupt.signal, progress: new Steps(),
+  };
+  const machine = describeMachine(about);  // of the commit that measures, whatever is committed meanwhile
+  const errors = await measure(context, about);
+  rows.sort();
+  if (rows.added > 0 || !existsSync(machineFile(folder))) {
+    const tools = Object.assign({}, ...(await Promise.all(chosen.map((experiment) => experiment.tools?.(context) ?? {}))));
+    writeFileSync(machineFile(folder), `${JSON.stringify({ ...machine, tools }, null, 2)}\n`);
+  }
+  console.log(`${rows.added} rows measured, ${rows.select().length} in ${rowsFile(folder)}`);
+  for (const error of errors) console.error(`not measured: ${error}`);
+  return interrupt.signal.aborted ? 130 : errors.length > 0 ? 1 : 0;
 }
-const context = {
-  quick: options.quick ?? false, seeds, schemes: about.schemes, rows, folder, parallel: options.jobs,
-  signal: interrupt.signal, progress: new Steps(),
-};
-const started = describeMachine(about);  // of the commit that measures, whatever is committed meanwhile
-const errors = options.document ? [] : await measure(context, about);
-rows.sort();
-if (rows.added > 0 || !existsSync(machineFile)) {
-  const tools = Object.assign({}, ...(await Promise.all(chosen.map((experiment) => experiment.tools?.(context) ?? {}))));
-  writeFileSync(machineFile, `${JSON.stringify({ ...started, tools }, null, 2)}\n`);
-}
-writeDocument(documentFile, { ...context, experiments, machine: JSON.parse(readFileSync(machineFile, 'utf8')) });
-console.log(`${rows.added} rows measured, ${rows.select().length} in ${rowsFile}; ${documentFile}`);
-for (const error of errors) console.error(`not measured: ${error}`);
-process.exitCode = interrupt.signal.aborted ? 130 : errors.length > 0 ? 1 : 0;
+
+if (!options.document) process.exitCode = await measureAll();
+writeDocument(documentFile, recordedContext(folder, { quick: options.quick }));
+console.log(documentFile);

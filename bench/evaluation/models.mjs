@@ -13,8 +13,11 @@ export const modelPath = (name) => (isGenerated(name) ? name : join(folder, name
 
 export const isPresent = (name) => isGenerated(name) || existsSync(modelPath(name));
 
-/** Why a model that is not there was not measured. */
-export const absence = (name) => `${name} was not there: set QUADMARK_MODELS to the folder of the real models`;
+/** Whether there is any row of a model: documents tell of rows, wherever they are made. */
+export const wasMeasured = ({ rows }, name) => rows.select({ model: name }).length > 0;
+
+export const absence = (name) =>
+  `${name} was not measured: it is not in the folder of the real models (QUADMARK_MODELS), or the run ended before it.`;
 
 /** What a quick run takes instead of every other model. */
 export const QUICK_MODELS = ['sculpture:8000:1', 'part:6500:1'];

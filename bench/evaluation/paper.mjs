@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the paper prints (Gao, Zhang, Huang, Deng 2012), and tables of our readings beside it.
 import { errorCell, measuredTable } from './cells.mjs';
-import { absence, isPresent, QUICK_MODELS } from './models.mjs';
+import { absence, QUICK_MODELS, wasMeasured } from './models.mjs';
 
 /** The models of the paper that are to be had, with its digits; others that it has not. */
 export const PRINTED = [{ model: 'fandisk.ply', settings: 'L=3', printed: 'Fandisk' }, { model: 'bunny.ply', settings: 'L=2', printed: 'Bunny' }];
@@ -28,7 +28,7 @@ export function paperJobs(context, cases, payload, attacks, { robust = true } = 
 const shown = (share) => (share === undefined ? '' : `${(100 * share).toFixed(1)}`);
 
 /** A line for each case whose model is not there. */
-export const absences = (context, cases) => casesOf(context, cases).filter(({ model }) => !isPresent(model)).map(({ model }) => `${absence(model)}.`).join(' ');
+export const absences = (context, cases) => casesOf(context, cases).filter(({ model }) => !wasMeasured(context, model)).map(({ model }) => absence(model)).join(' ');
 
 /**
  * Bit error rates in percent of one scheme on all cases: a row per attack, beside each model the paper's own figure, and
@@ -37,7 +37,7 @@ export const absences = (context, cases) => casesOf(context, cases).filter(({ mo
  * @param attacks  [{ label, attack, printed?: { Bunny: share, ... } }]
  */
 export function errorTable(context, { scheme, payload, cases, attacks, printed = scheme === 'paper' }) {
-  const there = casesOf(context, cases).filter(({ model }) => isPresent(model));
+  const there = casesOf(context, cases).filter(({ model }) => wasMeasured(context, model));
   const models = printed && !context.quick ? [...new Set(attacks.flatMap((one) => Object.keys(one.printed ?? {})))] : [];
   const elsewhere = models.filter((name) => !there.some((one) => one.printed === name));
   const settingsOf = (settings) => (scheme === 'paper' ? settings : undefined);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { errorCell, measuredTable } from '../cells.mjs';
-import { isPresent } from '../models.mjs';
+import { wasMeasured } from '../models.mjs';
 import { absences, casesOf, PRINTED } from '../paper.mjs';
 
 export const name = 'fig10';
@@ -19,7 +19,7 @@ const marks = (context) => casesOf(context, cases).flatMap(({ model, settings })
 export const jobs = (context) => marks(context).flatMap((mark) => context.seeds.map((seed) => ({ ...mark, seed, attacks })));
 
 export function document(context) {
-  const there = marks(context).filter(({ model }) => isPresent(model));
+  const there = marks(context).filter(({ model }) => wasMeasured(context, model));
   const cells = (attack) => there.map((mark) => errorCell(context.rows.select({ ...mark, attack })));
   return `Bit error rates in percent, maps applied in float32. The paper: 0 for all maps and for 50 orders.
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { errorCell, measuredTable } from '../cells.mjs';
-import { isPresent } from '../models.mjs';
+import { wasMeasured } from '../models.mjs';
 import { absences, casesOf, PRINTED } from '../paper.mjs';
 
 export const name = 'fig11';
@@ -24,10 +24,10 @@ export const jobs = (context) => context.seeds.flatMap((seed) => [
 ]);
 
 export function document(context) {
-  const there = models(context).filter(isPresent);
+  const there = models(context).filter((model) => wasMeasured(context, model));
   const table = (list) => measuredTable(['digits', ...there.flatMap((model) => NOISE.map((attack) => `${model}, ${attack.replace(':', ' ')}`))],
     list.map((settings) => [settings, ...there.flatMap((model) => NOISE.map((attack) => errorCell(context.rows.select({ scheme: 'paper', settings, payload, model, attack }))))]));
-  const halves = localMarks(context).filter(({ model }) => isPresent(model));
+  const halves = localMarks(context).filter(({ model }) => wasMeasured(context, model));
   return `24 x 24 pixels, bit error rates in percent. The paper's curves come without figures: with noise of "1e-5" on its Bunny, its
 rate rises with H, sharply from 6 on, to a half at 7; it rises with L, too. With noise on half of the vertices it shows pictures that
 are "still close to the original" at 1e-1 and 1e0.

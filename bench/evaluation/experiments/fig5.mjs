@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { join } from 'node:path';
 import { errorCell, measuredTable } from '../cells.mjs';
-import { isPresent } from '../models.mjs';
+import { wasMeasured } from '../models.mjs';
 import { absences, casesOf, PRINTED } from '../paper.mjs';
 
 export const name = 'fig5';
@@ -30,7 +30,7 @@ export const jobs = (context) => marks(context).flatMap((mark) => context.seeds.
 })));
 
 export function document(context) {
-  const there = marks(context).filter(({ model }) => isPresent(model));
+  const there = marks(context).filter(({ model }) => wasMeasured(context, model));
   const head = ['vertices cut off', ...there.map(({ scheme, payload, model }) => `\`${scheme}\`, ${payload}, ${model}`)];
   const cells = (attack) => there.map((mark) => errorCell(context.rows.select({ ...mark, attack })));
   return `Bit error rates in percent; the lowest vertices along y are cut off with the faces that use them. The paper shows the Bunny's

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { meanCell, measuredTable } from '../cells.mjs';
-import { isPresent } from '../models.mjs';
+import { wasMeasured } from '../models.mjs';
 import { absences, casesOf, PRINTED } from '../paper.mjs';
 
 export const name = 'fig9';
@@ -16,7 +16,7 @@ export const jobs = (context) => models(context).flatMap((model) => context.seed
   SETTINGS.map((settings) => ({ scheme: 'paper', settings, payload, model, seed, attacks: [] }))));
 
 export function document(context) {
-  const there = models(context).filter(isPresent);
+  const there = models(context).filter((model) => wasMeasured(context, model));
   const table = (list) => measuredTable(['digits', ...there.flatMap((model) => [`${model}: Hausdorff, 1e-3`, 'capacity, bits', 'SNR dB'])],
     list.map((settings) => [settings, ...there.flatMap((model) => {
       const marks = context.rows.select({ scheme: 'paper', settings, payload, model, attack: 'mark' });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { errorCell, meanCell, measuredTable } from '../cells.mjs';
-import { isPresent } from '../models.mjs';
+import { wasMeasured } from '../models.mjs';
 import { absences, casesOf, OTHERS, PRINTED } from '../paper.mjs';
 
 export const name = 'models';
@@ -22,7 +22,7 @@ export const jobs = (context) => [...smaller(context), ...larger(context), ...na
   context.seeds.map((seed) => ({ scheme, settings, payload, model, seed, attacks: Object.values(ATTACKS) })));
 
 function table(context, marks) {
-  const rows = marks.filter(({ model }) => isPresent(model)).map(({ scheme, settings, payload, model }) => {
+  const rows = marks.filter(({ model }) => wasMeasured(context, model)).map(({ scheme, settings, payload, model }) => {
     const of = (attack) => context.rows.select({ scheme, settings, payload, model, attack });
     return [model, meanCell(of('mark'), 'vertices', (x) => x.toFixed(0)), meanCell(of('mark'), 'carriers', (x) => x.toFixed(0)),
       meanCell(of('mark'), 'snr', (x) => x.toFixed(1)), ...Object.values(ATTACKS).map((attack) => errorCell(of(attack)))];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { meanCell, measuredTable } from '../cells.mjs';
-import { absence, isPresent, QUICK_MODELS } from '../models.mjs';
+import { absence, QUICK_MODELS, wasMeasured } from '../models.mjs';
 
 export const name = 'table1';
 export const title = 'Capacity and distortion (the paper, Table I)';
@@ -33,13 +33,13 @@ export const losses = (context) => cases(context).filter(({ model }) => PAPER[mo
 });
 
 export function document(context) {
-  const rows = cases(context).filter(({ model }) => isPresent(model)).map((one) => {
+  const rows = cases(context).filter(({ model }) => wasMeasured(context, model)).map((one) => {
     const marks = context.rows.select({ scheme: 'paper', ...one, attack: 'mark' });
     return [one.model, one.payload, one.settings, meanCell(marks, 'capacity', (x) => x.toFixed(0)),
       meanCell(marks, 'hausdorff', (x) => (1000 * x).toFixed(3)), meanCell(marks, 'snr', (x) => x.toFixed(1)),
       meanCell(marks, 'psnr', (x) => x.toFixed(1)), meanCell(marks, 'normals', (x) => x.toFixed(2)), (PAPER[one.model] ?? []).slice(1).join(' / ') || '-'];
   });
-  const absent = cases(context).filter(({ model }) => !isPresent(model)).map(({ model }) => absence(model));
+  const absent = cases(context).filter(({ model }) => !wasMeasured(context, model)).map(({ model }) => absence(model));
   return `Scheme \`paper\`; H by Eq. (7). The last column is the paper's own: capacity / Hausdorff / SNR / PSNR.
 
 ${measuredTable(['model', 'payload', 'digits', 'capacity, bits', 'Hausdorff, 1e-3', 'SNR dB', 'PSNR dB', 'normals deg', 'the paper'], rows)}
