@@ -86,7 +86,7 @@ test('a worker says what is wrong with a job, and goes on', { skip }, async () =
   const { json } = await run(workerFile, ['run'], { input: jobs.map((job) => `${JSON.stringify(job)}\n`).join('') });
   const errors = json.filter((line) => line.error).map((line) => line.error);
   assert.equal(json.filter((line) => line.done).length, jobs.length);
-  for (const [i, expected] of ['"nobody" is not one of robust, paper', 'neither id nor image:SIDE', 'expected "invisible"', '"nothing" is not one of', 'noise:x', 'cannot read', 'scheme'].entries()) {
+  for (const [i, expected] of ['"nobody" is not one of robust, paper', 'neither id nor image:SIDE', 'expected "invisible"', '"nothing" is not one of', 'noise:x', 'cannot read', 'not found'].entries()) {
     assert.ok(errors[i].includes(expected), errors[i]);
   }
   assert.deepEqual(json.filter((line) => line.outcome).map(({ attack, outcome }) => [attack, outcome]), [['none', 'exact'], ['crop:1', 'failed']]);
