@@ -2,6 +2,7 @@
 #include "keyed_bits.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 
@@ -28,16 +29,32 @@ KeyedBits::KeyedBits(std::uint64_t key, std::string_view purpose, std::size_t co
 void BitVotes::add(std::uint64_t carrier, double weight) {
   if (weight == 0) return;
   const std::size_t bit = bits_.bitAt(carrier);
+  unanimous_ = unanimous_ && sums_[bit] * weight >= 0;
   sums_[bit] += weight;
   heard_[bit] = 1;
 }
 
-TrialReading BitVotes::reading() const {
+double BitVotes::clearness() const {
+  double sum = 0;
+  for (const double votes : sums_) sum += std::abs(votes);
+  return sum;
+}
+
+double BitVotes::agreement(std::size_t first) const {
+  double right = 0, all = 0;
+  for (std::size_t i = first; i < sums_.size(); ++i) {
+    right += bits_.padded(i, 0) ? sums_[i] : -sums_[i];
+    all += std::abs(sums_[i]);
+  }
+  return all > 0 ? std::max(right / all, 0.0) : 0;
+}
+
+TrialReading BitVotes::reading(std::size_t count) const {
   TrialReading out;
-  if (std::count(heard_.begin(), heard_.end(), 0) == static_cast<std::ptrdiff_t>(heard_.size())) return out;
-  out.bits.assign(sums_.size(), 0);
-  out.unread.assign(sums_.size(), 0);
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
+  if (std::count(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(count), 1) == 0) return out;
+  out.bits.assign(count, 0);
+  out.unread.assign(count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
     if (heard_[i] == 0 || sums_[i] == 0) {
       out.unread[i] = 1;
     } else {

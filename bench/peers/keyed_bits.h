@@ -37,13 +37,21 @@ class BitVotes {
 
   /// @param weight  > 0 votes for a written 1, < 0 for a written 0, 0 for nothing.
   void add(std::uint64_t carrier, double weight);
-  /// Bits without a vote are unread. Empty when no bit has one.
-  [[nodiscard]] TrialReading reading() const;
+  /// How much the votes agree with each other: the sum over all bits of what is left after opposite votes.
+  [[nodiscard]] double clearness() const;
+  /// How much the bits from `first` on are 0 as written: 1 if every vote says so, 0 if half of them or fewer.
+  [[nodiscard]] double agreement(std::size_t first) const;
+  /// Whether no two votes for one bit differed.
+  [[nodiscard]] bool unanimous() const { return unanimous_; }
+  /// The first `count` bits. Those without a vote are unread. Empty when none has one.
+  [[nodiscard]] TrialReading reading(std::size_t count) const;
+  [[nodiscard]] TrialReading reading() const { return reading(sums_.size()); }
 
  private:
   const KeyedBits& bits_;
   std::vector<double> sums_;
   Bits heard_;
+  bool unanimous_ = true;
 };
 
 }  // namespace quadmark::bench

@@ -20,6 +20,15 @@ std::vector<double> unwelded(const Mesh& mesh, const WeldedMesh& welded, const s
   return out;
 }
 
+std::vector<std::uint32_t> firstTwins(const WeldedMesh& welded) {
+  std::vector<std::uint32_t> first(welded.vertexCount(), kNoVertex);
+  for (std::size_t v = 0; v < welded.weldedOf.size(); ++v) {
+    const std::uint32_t w = welded.weldedOf[v];
+    if (w != kNoVertex && first[w] == kNoVertex) first[w] = static_cast<std::uint32_t>(v);
+  }
+  return first;
+}
+
 Mesh asStored(const Mesh& mesh, const std::vector<double>& positions) {
   Mesh out = mesh;
   out.positions = positions;

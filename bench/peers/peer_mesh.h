@@ -21,6 +21,9 @@ namespace quadmark::bench {
 /// @param moved  3 per welded vertex.
 [[nodiscard]] std::vector<double> unwelded(const Mesh& mesh, const WeldedMesh& welded, const std::vector<double>& moved);
 
+/// For each welded vertex, the first vertex of the file that it stands for.
+[[nodiscard]] std::vector<std::uint32_t> firstTwins(const WeldedMesh& welded);
+
 /// The mesh with other positions, rounded to what its file can store.
 [[nodiscard]] Mesh asStored(const Mesh& mesh, const std::vector<double>& positions);
 

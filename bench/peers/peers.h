@@ -30,6 +30,8 @@ class Peer : public Scheme {
 // Each file names the paper, says where the paper leaves something open and what was decided.
 [[nodiscard]] std::unique_ptr<Peer> choMean();
 [[nodiscard]] std::unique_ptr<Peer> choVariance();
+[[nodiscard]] std::unique_ptr<Peer> indexQim();
+[[nodiscard]] std::unique_ptr<Peer> lsbHmac();
 
 /// All of them, oldest paper first, then the two that are common practice rather than a paper.
 [[nodiscard]] std::vector<std::unique_ptr<Peer>> peers();

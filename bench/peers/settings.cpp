@@ -42,6 +42,7 @@ std::string usualText(const std::vector<Setting>& known) {
 }
 
 std::string describe(const std::vector<Setting>& known) {
+  if (known.empty()) return "none";
   std::string out;
   for (const Setting& setting : known) {
     out += (out.empty() ? "" : "; ") + setting.name + ' ' + shortNumber(setting.low) + " .. " +
