@@ -16,6 +16,19 @@ ${machine.memoryGiB} GiB, ${machine.system}.${tools ? ` Tools: ${tools}.` : ''}
 `;
 }
 
+function schemesTable({ schemes }) {
+  const peers = schemes.filter(({ peer }) => peer).map(({ name, peer }) => [`\`${name}\``,
+    [peer.authors, peer.title, peer.venue, peer.year || ''].filter((text) => text !== '').join(', '), peer.blind ? 'yes' : 'no', peer.carrier, peer.settings, peer.decided, peer.validation]);
+  return `\`robust\` is ours and the product's default, \`paper\` the affine-invariant scheme of Gao, Zhang, Huang and Deng (ACM TOMM 2012). The
+others were written from their papers, to be measured beside them, each given its best:
+
+${tableOf(['scheme', 'source', 'blind', 'what carries a bit', 'settings', 'left open there and decided here', 'validated by'], peers)}
+
+Every payload is XORed with a pad of the key before a scheme gets it, so that the bits of a reading without the mark are coin flips.
+Where a scheme has no bound of its own on chance, the binomial tail of the bits that agree is taken. "exact": all bits are right,
+and known to be right by the scheme or a tail of at most 1e-6; "recognised": a tail of at most 1e-6 with some bits wrong or unread.`;
+}
+
 /** Row by row where we lose, as the experiments find it in the rows. */
 function conclusion(context) {
   const losses = experiments.flatMap((experiment) => experiment.losses?.(context) ?? []);
@@ -29,5 +42,5 @@ ${tableOf(['where', 'ours', 'theirs'], losses.map(({ where, ours, theirs }) => [
 /** @param context  as recordedContext() gives it */
 export function writeDocument(path, context) {
   const sections = experiments.map((experiment) => `## ${experiment.title}\n\n${experiment.document(context).trim()}\n`);
-  writeFileSync(path, [head(context), ...sections, `## Where we lose\n\n${conclusion(context)}\n`].join('\n'));
+  writeFileSync(path, [head(context), `## The schemes\n\n${schemesTable(context)}\n`, ...sections, `## Where we lose\n\n${conclusion(context)}\n`].join('\n'));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // quadmark_evaluate: marks models with any scheme, damages them, reads the marks back: the worker of bench/evaluate.
 //
-//   quadmark_evaluate about                       version, compiler, schemes and their usual settings
+//   quadmark_evaluate about                       version, compiler; schemes, their usual settings, what peers are
 //   quadmark_evaluate run                         jobs from standard input, one a line; rows to standard output
 //   quadmark_evaluate mark SCHEME SETTINGS PAYLOAD MODEL SEED OUT       writes a marked .glb or .ply; prints the mark's row
 //   quadmark_evaluate read SCHEME SETTINGS PAYLOAD FILE SEED [PICTURE]  prints outcome, ber, unread and claim; the PNG of
@@ -27,6 +27,7 @@
 #include "chance.h"
 #include "distortion_columns.h"
 #include "models.h"
+#include "peers/peers.h"
 #include "quadmark/image.h"
 #include "quadmark/io/model.h"
 #include "quadmark/quadmark.h"
@@ -142,7 +143,16 @@ int fail(const Error& error) {
 
 int about() {
   Json list = Json::array();
-  for (const auto& scheme : schemes()) list.push_back({{"name", scheme->name()}, {"usualSettings", scheme->usualSettings()}});
+  for (const auto& scheme : schemes()) {
+    Json one = {{"name", scheme->name()}, {"usualSettings", scheme->usualSettings()}};
+    if (const auto* peer = dynamic_cast<const Peer*>(scheme.get())) {
+      const PeerInfo info = peer->info();
+      one["peer"] = {{"authors", info.authors}, {"title", info.title},     {"venue", info.venue},
+                     {"year", info.year},       {"blind", info.blind},     {"carrier", info.carrier},
+                     {"settings", info.settings}, {"decided", info.decided}, {"validation", info.validation}};
+    }
+    list.push_back(one);
+  }
 #ifdef __clang__
   const std::string compiler = __VERSION__;
 #else

@@ -31,13 +31,15 @@ const LIRIS = [
 const attacks = ({ quick }) => (quick ? LIRIS.filter((one) => one.quick) : LIRIS);
 
 /** Settings of a scheme, the most distorting first: the first that keeps within a limit is taken. */
-function ladder({ name: scheme, usualSettings }, quick) {
+function ladder({ name: scheme, usualSettings, peer }, quick) {
   if (scheme === 'robust') return ['strong', 'standard', 'invisible'];
   if (scheme === 'paper') return ['L=2', 'L=3', 'L=4'];
-  const [, setting, usual] = /^(\w+)=([\d.e-]+)/.exec(usualSettings) ?? [];
-  if (setting !== 'strength') return [usualSettings];
-  const factors = quick ? [4, 1, 0.25] : [4, 3, 2.2, 1.6, 1.25, 1, 0.75, 0.5, 0.35, 0.25, 0.15, 0.08];
-  return factors.map((factor) => `strength=${Number((usual * factor).toPrecision(2))}`);
+  const [, low, high] = /\bstrength ([\d.e-]+) \.\. ([\d.e-]+)/.exec(peer.settings) ?? [];
+  const [, usual] = /\bstrength=([\d.e-]+)/.exec(usualSettings) ?? [];
+  if (!usual || !low) return [usualSettings];
+  const factors = quick ? [4, 1, 0.25] : [32, 20, 12, 8, 5.6, 4, 3, 2.2, 1.6, 1.25, 1, 0.75, 0.5, 0.35, 0.25, 0.15, 0.08];
+  return factors.map((factor) => Number((usual * factor).toPrecision(2))).filter((strength) => strength >= low && strength <= high)
+    .map((strength) => `strength=${strength}`);
 }
 
 /** The settings that a scheme takes for a model and limit, by its first marks; null: none keeps within it. Undefined before. */
