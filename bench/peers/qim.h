@@ -24,4 +24,11 @@ namespace quadmark::bench {
   return cell - 2 * std::floor(cell / 2) == 1 ? sureness : -sureness;
 }
 
+/// How much a vote counts whose step has this length, for noise moves vertices and the longer step survives more of it. Above
+/// 1e-4 of the diagonal all count nearly alike.
+[[nodiscard]] inline double lengthWeight(double stepLength, double diagonal) {
+  const double clear = 1e-4 * diagonal;
+  return stepLength * stepLength / (stepLength * stepLength + clear * clear);
+}
+
 }  // namespace quadmark::bench
