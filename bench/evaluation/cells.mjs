@@ -39,10 +39,12 @@ export function meanCell(rows, column, show) {
 }
 
 /**
- * A Markdown table with the number of trials: once below it where all cells have the same, else in each cell.
+ * A Markdown table with the number of trials: once below it where all cells have the same, else in each cell. A sentence
+ * where none of its cells was measured.
  * @param rows  lists of texts and cells
  */
 export function measuredTable(head, rows) {
+  if (!rows.flat().some((cell) => cell?.trials)) return 'Not measured: the run ended before it.';
   const counts = new Set(rows.flat().filter((cell) => cell?.trials > 0).map((cell) => cell.trials));
   const common = counts.size === 1;
   const show = (cell) => {

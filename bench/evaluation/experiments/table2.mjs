@@ -24,7 +24,10 @@ const SURVIVORS = Object.keys(PRINTED_SIMPLIFICATION).map((removed) =>
 const attacks = [...NOISE, ...SIMPLIFICATION, ...SURVIVORS];
 
 export const jobs = (context) => paperJobs(context, cases, payload, attacks.map(({ attack }) => attack));
-export const losses = (context) => lossesToPaper(context, { title: 'Table II', payload, cases, attacks });
+export const losses = (context) => lossesToPaper(context, {
+  title: 'Table II', payload, cases,
+  attacks: attacks.map((one) => (NOISE.includes(one) ? { ...one, label: `${one.label}, whose unit in the paper is unknown` } : one)),
+});
 
 export const document = (context) => `24 x 24 pixels (576 bits), bit error rates in percent. Noise is uniform in [-a, a] per coordinate, a relative to the
 diagonal of the bounding box. The paper does not say to what its amplitudes are relative, and its noise and quantization rows
