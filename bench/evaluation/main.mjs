@@ -84,8 +84,9 @@ async function measure(context, about) {
   while (!context.signal.aborted) {
     const asked = chosen.flatMap((experiment) => experiment.jobs?.(context) ?? [])
       .map((job) => ({ ...job, settings: job.settings ?? usual.get(job.scheme) }));
-    const jobs = openJobs(asked, context.rows).filter((job) => !tried.has(JSON.stringify(job)));
-    if (jobs.length === 0) break;
+    const open = openJobs(asked, context.rows).filter((job) => !tried.has(JSON.stringify(job)));
+    if (open.length === 0) break;
+    const jobs = open.filter(({ seed }) => seed === open[0].seed);  // later jobs of this seed may depend on them
     for (const job of jobs) tried.add(JSON.stringify(job));  // what failed fails again
     context.progress.expect(jobs.length);
     errors.push(...(await runJobs(jobs, { ...context, progress })));
