@@ -6,7 +6,7 @@ export const name = 'liris';
 export const title = 'The LIRIS protocol, with peers';
 
 const payload = 'id';
-const MODELS = ['bunny.ply', 'rocker-arm.ply', 'fandisk.ply', 'ogre.ply', 'sculpture:20000:2'];
+const MODELS = ['bunny.ply', 'rocker-arm.ply', 'fandisk.ply', 'sculpture:20000:2'];
 const models = ({ quick }) => (quick ? QUICK_MODELS.slice(0, 1) : MODELS);
 
 // The larger of both directions' RMS distance between the surfaces, of the diagonal.
