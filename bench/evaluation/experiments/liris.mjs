@@ -57,7 +57,7 @@ const refused = (context, scheme, model) =>
 
 export const jobs = (context) => models(context).flatMap((model) => context.schemes.flatMap((scheme) => {
   const first = ladder(scheme, context.quick).map((settings) => ({ scheme: scheme.name, settings, payload, model, seed: 1, attacks: [] }));
-  const chosen = new Set(Object.keys(LIMITS).map((limit) => settingsFor(context, scheme, model, limit)).filter((settings) => settings));
+  const chosen = new Set(Object.keys(LIMITS).map((limit) => settingsFor(context, scheme, model, limit)).filter((settings) => settings != null));
   return [...first, ...[...chosen].flatMap((settings) => context.seeds.map((seed) =>
     ({ scheme: scheme.name, settings, payload, model, seed, attacks: attacks(context).map(({ attack }) => attack) })))];
 }));
@@ -65,7 +65,7 @@ export const jobs = (context) => models(context).flatMap((model) => context.sche
 /** The readings of a scheme within a limit after an attack. */
 const readings = (context, scheme, model, limit, attack) => {
   const settings = settingsFor(context, scheme, model, limit);
-  return settings ? context.rows.select({ scheme: scheme.name, settings, payload, model, attack }) : [];
+  return settings != null ? context.rows.select({ scheme: scheme.name, settings, payload, model, attack }) : [];
 };
 
 function cellOf(context, scheme, list, limit, attack, cell) {
@@ -83,9 +83,9 @@ function tableOf(context, list, limit, cell) {
 function settingsTable(context, list, limit) {
   return measuredTable(['scheme', ...list], context.schemes.map((scheme) => [scheme.name, ...list.map((model) => {
     const settings = settingsFor(context, scheme, model, limit);
-    if (!settings) return settings === undefined ? 'not measured' : refused(context, scheme, model) ? 'refused' : 'above the limit';
+    if (settings == null) return settings === undefined ? 'not measured' : refused(context, scheme, model) ? 'refused' : 'above the limit';
     const [{ rms, msdm2 }] = context.rows.select({ scheme: scheme.name, settings, payload, model, seed: 1, attack: 'mark' });
-    return `${settings}: ${(100 * rms).toFixed(4)} %, ${msdm2?.toFixed(2) ?? '-'}`;
+    return `${settings === '' ? '' : `${settings}: `}${(100 * rms).toFixed(4)} %, ${msdm2?.toFixed(2) ?? '-'}`;
   })]));
 }
 
