@@ -5,14 +5,14 @@ import { tableOf } from '../support/table.mjs';
 import { experiments } from './experiments.mjs';
 
 function head({ machine, rows, quick }) {
-  const tools = Object.entries(machine.tools).map(([name, version]) => `${name} ${version}`).join(', ');
+  const versions = (of) => Object.entries(of).map(([name, version]) => `${name} ${version}`).join(', ');
   return `# Evaluation
 
 Made by \`bench/evaluate${quick ? ' --quick' : ''}\` of ${rows.select().length} measured rows. How it is measured, and what the
 columns of the rows mean: [bench/README.md](../bench/README.md). An unread bit counts as half a wrong one.
 
 ${machine.date}, commit ${machine.commit}, quadmark ${machine.quadmark}, ${machine.compiler}, Node ${machine.node}; ${machine.cpu}, ${machine.cores} cores,
-${machine.memoryGiB} GiB, ${machine.system}.${tools ? ` Tools: ${tools}.` : ''}
+${machine.memoryGiB} GiB, ${machine.system}; ${versions(machine.libraries)}.${Object.keys(machine.tools).length > 0 ? ` Tools: ${versions(machine.tools)}.` : ''}
 `;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // quadmark_evaluate: marks models with any scheme, damages them, reads the marks back: the worker of bench/evaluate.
 //
-//   quadmark_evaluate about                       version, compiler; schemes, their usual settings, what peers are
+//   quadmark_evaluate about                       version, compiler, libraries; schemes, their usual settings, what peers are
 //   quadmark_evaluate run                         jobs from standard input, one a line; rows to standard output
 //   quadmark_evaluate mark SCHEME SETTINGS PAYLOAD MODEL SEED OUT       writes a marked .glb or .ply; prints the mark's row
 //   quadmark_evaluate read SCHEME SETTINGS PAYLOAD FILE SEED [PICTURE]  prints outcome, ber, unread and claim; the PNG of
@@ -22,6 +22,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+#include <meshoptimizer.h>
 #include <nlohmann/json.hpp>
 #include "attack_chain.h"
 #include "chance.h"
@@ -158,7 +160,13 @@ int about() {
 #else
   const std::string compiler = "g++ " __VERSION__;
 #endif
-  print({{"version", version()}, {"compiler", compiler}, {"schemes", list}});
+  const auto dotted = [](int a, int b, int c) { return std::to_string(a) + "." + std::to_string(b) + "." + std::to_string(c); };
+  const Json libraries = {
+      {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"meshoptimizer", dotted(MESHOPTIMIZER_VERSION / 1000, MESHOPTIMIZER_VERSION / 10 % 100, MESHOPTIMIZER_VERSION % 10)},
+      {"nlohmann-json",
+       dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)}};
+  print({{"version", version()}, {"compiler", compiler}, {"libraries", libraries}, {"schemes", list}});
   return 0;
 }
 

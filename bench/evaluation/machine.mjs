@@ -33,6 +33,7 @@ export function describeMachine(about) {
     memoryGiB: Math.round(totalmem() / 2 ** 30),
     system: system(),
     compiler: about.compiler,
+    libraries: about.libraries,
     node: process.versions.node,
     quadmark: about.version,
     schemes: about.schemes,
