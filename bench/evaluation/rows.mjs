@@ -10,6 +10,8 @@ export const COLUMNS = [...NAME, 'outcome', ...NUMBERS, 'note'];
 
 const nameOf = (row) => NAME.map((column) => row[column]).join('\n');
 
+const placeOf = ({ scheme, model }) => `${scheme}\n${model}`;
+
 const quoted = (text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
 function fieldOf(value) {
@@ -46,6 +48,7 @@ export class Rows {
   #path;
   #rows = [];
   #names = new Set();
+  #places = new Map();  // scheme and model -> rows: what nearly every cell asks for
   /** Rows that were added since the file was opened. */
   added = 0;
 
@@ -64,6 +67,9 @@ export class Rows {
     if (this.#names.has(name)) throw new Error(`${this.#path}: two rows ${name.replaceAll('\n', ', ')}`);
     this.#names.add(name);
     this.#rows.push(row);
+    const place = placeOf(row);
+    if (!this.#places.has(place)) this.#places.set(place, []);
+    this.#places.get(place).push(row);
   }
 
   /** Whether there is a row with this name: its first six columns. */
@@ -90,7 +96,8 @@ export class Rows {
     const tests = Object.entries(filter).filter(([, wanted]) => wanted !== undefined);
     const fits = (value, wanted) =>
       (typeof wanted === 'function' ? wanted(value) : Array.isArray(wanted) ? wanted.includes(value) : value === wanted);
-    return this.#rows.filter((row) => tests.every(([column, wanted]) => fits(row[column], wanted)));
+    const near = typeof filter.scheme === 'string' && typeof filter.model === 'string' ? this.#places.get(placeOf(filter)) ?? [] : this.#rows;
+    return near.filter((row) => tests.every(([column, wanted]) => fits(row[column], wanted)));
   }
 
   /** Orders the file by name. */
