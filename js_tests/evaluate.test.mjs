@@ -46,6 +46,8 @@ test('a quick evaluation measures every cell, whether or not it was interrupted'
   const text = readFileSync(join(folder, 'evaluation.md'), 'utf8');
   for (const { title } of experiments) assert.ok(text.includes(`\n## ${title}\n`), title);
   assert.ok(!/not measured|undefined|NaN/.test(text), /.*(not measured|undefined|NaN).*/.exec(text)?.[0]);
+  const report = readFileSync(join(folder, 'report.html'), 'utf8').replace(/base64,[^"]*/g, '');
+  assert.ok(!/not measured|undefined|NaN/.test(report), /.{80}(not measured|undefined|NaN).{80}/.exec(report)?.[0]);
 
   const again = await run(command, [...args, '--document']);
   assert.equal(again.status, 0, again.stderr);

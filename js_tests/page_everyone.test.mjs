@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: MIT
 // For everyone: no violation of axe's rules in any state, both languages, focus and live regions, reduced motion, phones.
 import assert from 'node:assert/strict';
-import { createRequire } from 'node:module';
-import { readFileSync } from 'node:fs';
 import { after, test } from 'node:test';
 import { generate } from 'quadmark/lab';
 import { assertQuiet, drop, markedSculpture, onDisk, openPage, screenshot, startBrowser, waitFor, waitForView } from './page_helpers.mjs';
+import { assertAccessible } from './support/accessible.mjs';
 import { logo, logoPng } from './support/marks.mjs';
 
 const browser = await startBrowser(after);
 const { model, marked, key } = await markedSculpture();
 const roomy = (await generate({ name: 'sculpture', vertices: 20000, format: 'glb' })).bytes;
-const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-
-/** Fails unless axe-core finds nothing. Its script is put in past the page's policy, by the debugger. */
-async function assertAccessible(page, state) {
-  const session = await page.context().newCDPSession(page);
-  await session.send('Runtime.evaluate', { expression: axe });
-  await session.detach();
-  const found = await page.evaluate(async () => (await globalThis.axe.run(document)).violations
-    .map(({ id, help, nodes }) => `${id}: ${help}: ${nodes.map(({ html }) => html.slice(0, 120)).join(' | ')}`));
-  assert.deepEqual(found, [], state);
-}
 
 /** Opens the page as somebody who never chose a language. */
 async function openFresh(t) {

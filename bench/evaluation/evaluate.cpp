@@ -6,6 +6,7 @@
 //   quadmark_evaluate mark SCHEME SETTINGS PAYLOAD MODEL SEED OUT       writes a marked .glb or .ply; prints the mark's row
 //   quadmark_evaluate read SCHEME SETTINGS PAYLOAD FILE SEED [PICTURE]  prints outcome, ber, unread and claim; the PNG of
 //                                                                       an image as it was read
+//   quadmark_evaluate write MODEL OUT             the model itself as `mark` writes it, without a mark
 //   quadmark_evaluate chance SCHEME SETTINGS MARK MODEL FIRST COUNT   trials without the reader's mark (chance.h);
 //                                                                       MARK "": of no scheme. Prints their claims by bins
 //
@@ -77,6 +78,13 @@ Status writeFile(const std::string& path, const std::vector<std::uint8_t>& bytes
   stream.close();
   if (!stream) return Error{ErrorCode::io, "cannot write " + path};
   return okStatus();
+}
+
+// By the extension a PLY, or a GLB.
+Status writeModel(const std::string& path, const NamedModel& model, const Mesh& mesh) {
+  const auto bytes = path.ends_with(".ply") ? Result<std::vector<std::uint8_t>>(lab::writePly(mesh))
+                                            : toGlb(model, mesh.positions);
+  return bytes ? writeFile(path, *bytes) : Status(bytes.error());
 }
 
 Status writePicture(const std::string& path, const Trial& trial, const Judgement& judgement) {
@@ -177,10 +185,7 @@ int mark(const Trial& trial, const std::string& modelName, const std::string& ou
   const auto marked = markTrial(trial, model->mesh);
   if (!marked && !isRefusal(marked.error())) return fail(marked.error());
   if (marked) {
-    const auto bytes = out.ends_with(".ply") ? Result<std::vector<std::uint8_t>>(lab::writePly(marked->mesh))
-                                             : toGlb(*model, marked->mesh.positions);
-    if (!bytes) return fail(bytes.error());
-    if (const Status wrote = writeFile(out, *bytes); !wrote) return fail(wrote.error());
+    if (const Status wrote = writeModel(out, *model, marked->mesh); !wrote) return fail(wrote.error());
     addMark(row, model->mesh, *marked);
   } else {
     addFailure(row, "refused", marked.error());
@@ -198,6 +203,14 @@ int read(const Trial& trial, const std::string& file, const std::string& picture
   Json row = Json::object();
   addJudgement(row, judgement);
   print(row);
+  return 0;
+}
+
+int write(const std::string& name, const std::string& out) {
+  const auto model = loadModel(name);
+  if (!model) return fail(model.error());
+  if (const Status wrote = writeModel(out, *model, model->mesh); !wrote) return fail(wrote.error());
+  print({{"vertices", model->mesh.vertexCount()}});
   return 0;
 }
 
@@ -226,6 +239,7 @@ int main(int argc, char** argv) {
   const std::string command = words.empty() ? "" : words[0];
   if (command == "about" && words.size() == 1) return about();
   if (command == "run" && words.size() == 1) return runJobs();
+  if (command == "write" && words.size() == 3) return write(words[1], words[2]);
   if (command == "chance" && words.size() == 7) return chance(words);
   if ((command == "mark" && words.size() == 7) || (command == "read" && (words.size() == 6 || words.size() == 7))) {
     const auto trial = makeTrial(words[1], words[2], words[3], std::strtoull(words[5].c_str(), nullptr, 10));
@@ -233,7 +247,7 @@ int main(int argc, char** argv) {
     if (command == "mark") return mark(*trial, words[4], words[6]);
     return read(*trial, words[4], words.size() == 7 ? words[6] : "");
   }
-  std::fprintf(stderr, "usage: quadmark_evaluate about | run | mark SCHEME SETTINGS PAYLOAD MODEL SEED OUT | "
+  std::fprintf(stderr, "usage: quadmark_evaluate about | run | write MODEL OUT | mark SCHEME SETTINGS PAYLOAD MODEL SEED OUT | "
                        "read SCHEME SETTINGS PAYLOAD FILE SEED [PICTURE] | "
                        "chance SCHEME SETTINGS MARK MODEL FIRST COUNT\n");
   return 2;

@@ -29,9 +29,10 @@ import * as fig10 from './experiments/fig10.mjs';
 import * as fig11 from './experiments/fig11.mjs';
 import * as liris from './experiments/liris.mjs';
 import * as models from './experiments/models.mjs';
+import * as pictures from './experiments/pictures.mjs';
 import * as table1 from './experiments/table1.mjs';
 import * as table2 from './experiments/table2.mjs';
 import * as table3 from './experiments/table3.mjs';
 import * as table4 from './experiments/table4.mjs';
 
-export const experiments = [table1, table2, table3, table4, fig5, fig9, fig10, fig11, models, liris, distortion, chance];
+export const experiments = [table1, table2, table3, table4, fig5, fig9, fig10, fig11, models, liris, distortion, pictures, chance];

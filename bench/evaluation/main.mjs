@@ -11,6 +11,7 @@ import { writeDocument } from './document.mjs';
 import { experiments } from './experiments.mjs';
 import { describeMachine } from './machine.mjs';
 import { repository } from './paths.mjs';
+import { writeReport } from './report.mjs';
 import { Rows } from './rows.mjs';
 import { openJobs, runJobs } from './runner.mjs';
 import { askWorker } from './worker.mjs';
@@ -121,5 +122,7 @@ async function measureAll() {
 }
 
 if (!options.document) process.exitCode = await measureAll();
-writeDocument(documentFile, recordedContext(folder, { quick: options.quick }));
-console.log(documentFile);
+const recorded = recordedContext(folder, { quick: options.quick }), reportFile = join(folder, 'report.html');
+writeDocument(documentFile, recorded);
+await writeReport(reportFile, recorded);
+console.log(`${documentFile}\n${reportFile}`);

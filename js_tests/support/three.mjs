@@ -74,6 +74,9 @@ export async function openThree(t) {
     /** [{ what, covered, differing }]: shares of pixels, at rest and in a pose; `before` and `after`: { model, resources }. */
     difference: (before, after, tolerance = 8) => withModels([before, after],
       (...urls) => page.evaluate(([one, two, limit]) => window.three.difference(one, two, limit), [...urls, tolerance])),
+    /** { before, after, difference: data: URLs, covered, most, mean }: levels of 255, those shown `amplify` times as large. */
+    pictures: (before, after, amplify) => withModels([before, after],
+      (...urls) => page.evaluate(([one, two, times]) => window.three.pictures(one, two, times), [...urls, amplify])),
     /** The GLB that GLTFExporter writes. */
     exported: async (model, resources) => Buffer.from(
       await withModels([{ model, resources }], (url) => page.evaluate((where) => window.three.exported(where), url)), 'base64'),

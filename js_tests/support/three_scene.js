@@ -83,6 +83,37 @@ function compare(before, after, tolerance) {
   return { covered: covered / all, differing: differing / all };
 }
 
+/** A picture of pixels as a data: URL, the first row at the bottom as WebGL has it. */
+function encoded(pixels) {
+  const canvas = document.createElement('canvas');
+  canvas.width = canvas.height = SIZE;
+  const flipped = new Uint8ClampedArray(pixels.length), row = 4 * SIZE;
+  for (let y = 0; y < SIZE; ++y) flipped.set(pixels.subarray(row * y, row * (y + 1)), row * (SIZE - 1 - y));
+  canvas.getContext('2d').putImageData(new ImageData(flipped, SIZE, SIZE), 0, 0);
+  return canvas.toDataURL('image/webp', 0.9);
+}
+
+/** How far two pictures are apart where the first shows the model: levels of 0 to 255, the largest of three channels. */
+function apart(before, after, amplify) {
+  const corner = before.slice(0, 4), shown = new Uint8Array(before.length);
+  let covered = 0, sum = 0, most = 0;
+  for (let i = 0; i < before.length; i += 4) {
+    let level = 0, covers = false;
+    for (let c = 0; c < 3; ++c) {
+      const difference = Math.abs(before[i + c] - after[i + c]);
+      level = Math.max(level, difference);
+      covers ||= before[i + c] !== corner[c];
+      shown[i + c] = Math.min(255, amplify * difference);
+    }
+    shown[i + 3] = 255;
+    most = Math.max(most, level);
+    if (!covers) continue;
+    ++covered;
+    sum += level;
+  }
+  return { covered: covered / (before.length / 4), most, mean: covered > 0 ? sum / covered : 0, shown };
+}
+
 window.three = {
   /** What three finds in a model. */
   async describe(url) {
@@ -111,6 +142,13 @@ window.three = {
       shoot('in a pose');
     }
     return results;
+  },
+
+  /** Two models and their difference from one camera, as pictures, with the largest and mean difference of a pixel. */
+  async pictures(urlBefore, urlAfter, amplify) {
+    const before = await load(urlBefore), after = await load(urlAfter), camera = cameraFor(before.root);
+    const first = draw(before, camera), second = draw(after, camera), { shown, ...figures } = apart(first, second, amplify);
+    return { before: encoded(first), after: encoded(second), difference: encoded(shown), ...figures };
   },
 
   /** What GLTFExporter makes of a model, as base64 of a GLB. */

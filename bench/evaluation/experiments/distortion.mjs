@@ -12,8 +12,8 @@ const MEASURES = {
   'normals, deg': ['normals', (x) => x.toFixed(2)], MSDM2: ['msdm2', (x) => x.toFixed(3)],
 };
 const MORE_IS_BETTER = ['snr', 'psnr'];
-const models = ({ quick }) => (quick ? QUICK_MODELS.slice(0, 1) : MODELS);
-const marks = (context) => context.schemes.flatMap(({ name: scheme, usualSettings }) =>
+export const models = ({ quick }) => (quick ? QUICK_MODELS.slice(0, 1) : MODELS);
+export const marks = (context) => context.schemes.flatMap(({ name: scheme, usualSettings }) =>
   [...(scheme === 'robust' ? ['invisible', usualSettings, 'strong'] : [usualSettings])].map((settings) => ({ scheme, settings, payload: 'id' })));
 
 export const jobs = (context) => marks(context).flatMap((mark) => models(context).flatMap((model) => context.seeds.map((seed) => ({ ...mark, model, seed, attacks: [] }))));

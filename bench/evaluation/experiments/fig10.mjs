@@ -6,12 +6,12 @@ import { absences, casesOf, PRINTED } from '../paper.mjs';
 export const name = 'fig10';
 export const title = 'Affine maps and reordering (the paper, Fig. 10)';
 
-const MAPS = { R: 'rotated by 45 degrees about x, then y', NS: 'scaled by .5, 1.5, 2', RE: 'mirrored', S: 'scaled by .5', SH: "sheared, x' = x + 1.5 y", CB: 'all of these' };
-const ORDERS = Array.from({ length: 10 }, (_, i) => `reorder:${i + 1}`);
+export const MAPS = { R: 'rotated by 45 degrees about x, then y', NS: 'scaled by .5, 1.5, 2', RE: 'mirrored', S: 'scaled by .5', SH: "sheared, x' = x + 1.5 y", CB: 'all of these' };
+export const ORDERS = Array.from({ length: 10 }, (_, i) => `reorder:${i + 1}`);
 const attacks = [...Object.keys(MAPS).map((map) => `affine::${map}`), ...ORDERS];
 const cases = [...PRINTED, { model: 'sculpture:40000:3', settings: 'L=2' }];
 
-const marks = (context) => casesOf(context, cases).flatMap(({ model, settings }) => [
+export const marks = (context) => casesOf(context, cases).flatMap(({ model, settings }) => [
   { scheme: 'paper', settings, payload: context.quick ? 'image:24' : 'image:90', model },
   { scheme: 'robust', settings: 'standard', payload: 'id', model },
 ]);

@@ -6,15 +6,15 @@ import { absences, casesOf, PRINTED } from '../paper.mjs';
 export const name = 'fig11';
 export const title = 'Digits against noise, and noise on one half (the paper, Fig. 11)';
 
-const payload = 'image:24';
-const BY_H = [3, 4, 5, 6, 7].map((H) => `L=2 H=${H}`);
-const BY_L = [2, 3, 4, 5].map((L) => `L=${L} H=${L + 1}`);
-const NOISE = ['noise:1e-6', 'noise:1e-5'];
-const LOCAL = ['1e-5', '1e-4', '1e-3', '1e-2', '1e-1', '1'].map((amplitude) => ({ amplitude, attack: `local-noise:${amplitude}` }));
+export const payload = 'image:24';
+export const BY_H = [3, 4, 5, 6, 7].map((H) => `L=2 H=${H}`);
+export const BY_L = [2, 3, 4, 5].map((L) => `L=${L} H=${L + 1}`);
+export const NOISE = ['noise:1e-6', 'noise:1e-5'];
+export const LOCAL = ['1e-5', '1e-4', '1e-3', '1e-2', '1e-1', '1'].map((amplitude) => ({ amplitude, attack: `local-noise:${amplitude}` }));
 const bunny = PRINTED.filter(({ printed }) => printed === 'Bunny');
-const models = (context) => casesOf(context, bunny).map(({ model }) => model);
+export const models = (context) => casesOf(context, bunny).map(({ model }) => model);
 
-const localMarks = (context) => models(context).flatMap((model) => [
+export const localMarks = (context) => models(context).flatMap((model) => [
   { scheme: 'paper', settings: 'L=2 H=3', payload, model }, { scheme: 'robust', settings: 'standard', payload, model },
 ]);
 

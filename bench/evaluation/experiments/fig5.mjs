@@ -7,13 +7,13 @@ import { absences, casesOf, PRINTED } from '../paper.mjs';
 export const name = 'fig5';
 export const title = 'Cropping (the paper, Fig. 5)';
 
-const CROPS = [0.1, 0.3, 0.5, 0.7, 0.8, 0.85, 0.9, 0.9211, 0.95];
+export const CROPS = [0.1, 0.3, 0.5, 0.7, 0.8, 0.85, 0.9, 0.9211, 0.95];
 const attacks = ['none', ...CROPS.map((share) => `crop:${share}`)];
 const cases = [...PRINTED, { model: 'sculpture:40000:3', settings: 'L=2' }];
 const picturedSeed = 1;
 
 /** The schemes and payloads that are put to it. */
-const marks = (context) => casesOf(context, cases).flatMap(({ model, settings }) => [
+export const marks = (context) => casesOf(context, cases).flatMap(({ model, settings }) => [
   { scheme: 'paper', settings, payload: context.quick ? 'image:24' : 'image:90', model },
   { scheme: 'robust', settings: 'standard', payload: 'image:24', model },
 ]);

@@ -6,11 +6,11 @@ import { absences, casesOf, PRINTED } from '../paper.mjs';
 export const name = 'fig9';
 export const title = 'Digits against distortion (the paper, Fig. 9)';
 
-const payload = 'image:24';
-const BY_H = [3, 4, 5, 6, 7].map((H) => `L=2 H=${H}`);
-const BY_L = [2, 3, 4, 5].map((L) => `L=${L} H=${L + 2}`);
+export const payload = 'image:24';
+export const BY_H = [3, 4, 5, 6, 7].map((H) => `L=2 H=${H}`);
+export const BY_L = [2, 3, 4, 5].map((L) => `L=${L} H=${L + 2}`);
 const SETTINGS = [...new Set([...BY_H, ...BY_L])];
-const models = (context) => casesOf(context, PRINTED).map(({ model }) => model);
+export const models = (context) => casesOf(context, PRINTED).map(({ model }) => model);
 
 export const jobs = (context) => models(context).flatMap((model) => context.seeds.flatMap((seed) =>
   SETTINGS.map((settings) => ({ scheme: 'paper', settings, payload, model, seed, attacks: [] }))));

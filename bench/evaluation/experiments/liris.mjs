@@ -7,10 +7,10 @@ export const title = 'The LIRIS protocol, with peers';
 
 const payload = 'id';
 const MODELS = ['bunny.ply', 'rocker-arm.ply', 'fandisk.ply', 'sculpture:20000:2'];
-const models = ({ quick }) => (quick ? QUICK_MODELS.slice(0, 1) : MODELS);
+export const models = ({ quick }) => (quick ? QUICK_MODELS.slice(0, 1) : MODELS);
 
 // The larger of both directions' RMS distance between the surfaces, of the diagonal.
-const LIMITS = { geometric: 0.0002, perceptual: 0.0008 };
+export const LIMITS = { geometric: 0.0002, perceptual: 0.0008 };
 
 const percent = (share) => `${+(100 * share).toFixed(2)} %`;
 const LIRIS = [
@@ -28,7 +28,7 @@ const LIRIS = [
   { label: 'vertex order', attack: 'reorder', quick: true },
   { label: 'affine map (not of the protocol)', attack: 'affine::CB', quick: true },
 ];
-const attacks = ({ quick }) => (quick ? LIRIS.filter((one) => one.quick) : LIRIS);
+export const attacks = ({ quick }) => (quick ? LIRIS.filter((one) => one.quick) : LIRIS);
 
 /** Settings of a scheme: the one that comes closest to a limit without passing it is taken. */
 function ladder({ name: scheme, usualSettings, peer }, quick) {
@@ -62,7 +62,7 @@ export const jobs = (context) => models(context).flatMap((model) => context.sche
 }));
 
 /** The readings of a scheme within a limit after an attack. */
-const readings = (context, scheme, model, limit, attack) => {
+export const readings = (context, scheme, model, limit, attack) => {
   const settings = settingsFor(context, scheme, model, limit);
   return settings != null ? context.rows.select({ scheme: scheme.name, settings, payload, model, attack }) : [];
 };

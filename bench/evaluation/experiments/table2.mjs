@@ -4,7 +4,7 @@ import { absences, BESIDE, errorTable, lossesToPaper, paperJobs, PRINTED } from 
 export const name = 'table2';
 export const title = 'Noise and simplification (the paper, Table II)';
 
-const payload = 'image:24', cases = [...PRINTED, ...BESIDE];
+export const payload = 'image:24', cases = [...PRINTED, ...BESIDE];
 const NOISE = [
   { label: 'noise 1e-6', attack: 'noise:1e-6' },
   { label: 'noise 1e-5', attack: 'noise:1e-5', printed: { Fandisk: 0.1262, Dragon: 0, Buddha: 0, Bunny: 0 } },
@@ -21,7 +21,7 @@ const SIMPLIFICATION = Object.entries(PRINTED_SIMPLIFICATION).map(([removed, pri
   ({ label: `QEM, ${removed} % of the vertices removed`, attack: `simplify:${removed / 100}:qem`, printed }));
 const SURVIVORS = Object.keys(PRINTED_SIMPLIFICATION).map((removed) =>
   ({ label: `meshoptimizer, ${removed} % of the triangles removed`, attack: `simplify:${removed / 100}` }));
-const attacks = [...NOISE, ...SIMPLIFICATION, ...SURVIVORS];
+export const attacks = [...NOISE, ...SIMPLIFICATION, ...SURVIVORS];
 
 export const jobs = (context) => paperJobs(context, cases, payload, attacks.map(({ attack }) => attack));
 export const losses = (context) => lossesToPaper(context, {

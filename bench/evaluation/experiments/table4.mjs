@@ -4,7 +4,7 @@ import { absences, BESIDE, errorTable, lossesToPaper, paperJobs, PRINTED } from 
 export const name = 'table4';
 export const title = 'Quantization and smoothing (the paper, Table IV)';
 
-const payload = 'image:24', cases = [...PRINTED, ...BESIDE];
+export const payload = 'image:24', cases = [...PRINTED, ...BESIDE];
 const QUANTIZATION = [
   { bits: 16, printed: { Dragon: 0.1408, Bunny: 0.1038 } },
   { bits: 15, printed: { Dragon: 0.2514, Bunny: 0.1864 } },
@@ -16,7 +16,7 @@ const SMOOTHING = [
   { lambda: '1e-3', printed: { Dragon: 0.1337, Bunny: 0.1413 } },
   { lambda: '1e-2', printed: { Dragon: 0.3562, Bunny: 0.3454 } },
 ].map(({ lambda, printed }) => ({ label: `Taubin, lambda ${lambda}, one step`, attack: `smooth:${lambda}`, printed }));
-const attacks = [...QUANTIZATION, ...SMOOTHING];
+export const attacks = [...QUANTIZATION, ...SMOOTHING];
 
 export const jobs = (context) => paperJobs(context, cases, payload, attacks.map(({ attack }) => attack));
 export const losses = (context) => lossesToPaper(context, { title: 'Table IV', payload, cases, attacks });

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Heat maps of how many marks came back: by tool, and by affine map.
+import * as fig10 from '../experiments/fig10.mjs';
+import { wasMeasured } from '../models.mjs';
+import { figure, htmlTable } from './figure.mjs';
+import { plot } from './plot.mjs';
+import { whyNothing } from './statistics.mjs';
+
+const isTrial = ({ outcome }) => outcome !== 'refused' && outcome !== 'failed';
+
+/** { text, share }: how many were read exactly, of how many; "+n" more were recognised. */
+function survived(rows) {
+  const trials = rows.filter(isTrial);
+  if (trials.length === 0) return { text: whyNothing(rows), share: null, trials: 0 };
+  const count = (outcome) => trials.filter((row) => row.outcome === outcome).length;
+  const exact = count('exact'), match = count('match');
+  return { text: `${exact}${match > 0 ? `+${match}` : ''} / ${trials.length}`, share: exact / trials.length, known: (exact + match) / trials.length, trials: trials.length };
+}
+
+function spec(cells, rows, columns) {
+  const place = { x: { field: 'column', type: 'nominal', sort: columns, title: null, axis: { orient: 'top', labelAngle: 0, ticks: false, domain: false, labelLimit: 110 } },
+    y: { field: 'row', type: 'nominal', sort: rows, title: null, axis: { ticks: false, domain: false, labelLimit: 330 } } };
+  return {
+    width: { step: Math.max(88, 7.2 * Math.max(...columns.map((name) => name.length))) }, height: { step: 25 }, data: { values: cells }, encoding: place,
+    layer: [
+      { mark: { type: 'rect', stroke: 'var(--card)', strokeWidth: 2 },
+        encoding: { fill: { field: 'grade', type: 'nominal', legend: null, scale: { domain: ['none', 'few', 'known', 'most', 'all', 'missing'], range: ['none', 'few', 'known', 'most', 'all', 'missing'].map((grade) => `var(--grade-${grade})`) } } } },
+      { mark: { type: 'text', fontSize: 12 }, encoding: { text: { field: 'shown' }, color: { field: 'grade', type: 'nominal', legend: null, scale: { domain: ['none', 'few', 'known', 'most', 'all', 'missing'], range: ['none', 'few', 'known', 'most', 'all', 'missing'].map((grade) => `var(--on-${grade})`) } } } },
+    ],
+    resolve: { scale: { color: 'independent' } },
+  };
+}
+
+function gradeOf({ share, known }) {
+  if (share === null) return 'missing';
+  if (share === 1) return 'all';
+  if (share >= 0.5) return 'most';
+  if (known >= 0.9) return 'known';
+  return share > 0 || known > 0 ? 'few' : 'none';
+}
+
+async function heatFigure({ title, caption, rows, columns, rowsOf }) {
+  const cells = rows.flatMap((row) => columns.map((column) => {
+    const cell = survived(rowsOf(row, column));
+    return { row, column, ...cell, grade: gradeOf(cell), shown: cell.share === null ? cell.text.split(':')[0] : cell.text };
+  }));
+  const said = cells.map(({ row, column, text }) => `${row}, ${column}: ${text}`).join('; ');
+  const key = '<ul class="legend grades"><li><i data-grade="all"></i>all read exactly</li><li><i data-grade="most"></i>half and more</li><li><i data-grade="known"></i>recognised, hardly read</li><li><i data-grade="few"></i>some</li><li><i data-grade="none"></i>none</li></ul>';
+  return figure({
+    title, caption, tables: [htmlTable([title, ...columns], rows.map((row) => [row, ...cells.filter((cell) => cell.row === row).map(({ text }) => text)]))],
+    panels: [{ title: '', wide: true, svg: `${key}<div class="scroll" tabindex="0">${await plot(spec(cells, rows, columns), `${title}: ${said}`)}</div>` }],
+  });
+}
+
+export async function toolSection(context) {
+  const all = context.rows.select({ attack: (attack) => attack.startsWith('tool:') });
+  if (all.length === 0) return '<p>No tool has been measured: <code>bench/evaluate --experiment tools</code>.</p>';
+  const lineOf = ({ attack }) => attack.slice('tool:'.length), columnOf = ({ scheme, settings }) => (scheme === 'robust' ? `${scheme} ${settings}` : scheme);
+  const order = context.schemes.map(({ name }) => name);
+  const columns = [...new Set([...all].sort((a, b) => order.indexOf(a.scheme) - order.indexOf(b.scheme)).map(columnOf))];
+  return heatFigure({
+    title: 'Marks that come back after a real program', columns, rows: [...new Set(all.map(lineOf))],
+    caption: '64-bit IDs: read exactly, "+n" more recognised when the ID is expected, of how many trials. What could not be run says so in the table behind.',
+    rowsOf: (line, column) => all.filter((row) => lineOf(row) === line && columnOf(row) === column),
+  });
+}
+
+export async function affineSection(context) {
+  const marks = fig10.marks(context).filter(({ model }) => wasMeasured(context, model));
+  const nameOf = ({ scheme, model }) => `${scheme}: ${model}`;
+  const attacks = { ...Object.fromEntries(Object.entries(fig10.MAPS).map(([map, words]) => [`${map}: ${words.split(/ by |,/)[0]}`, `affine::${map}`])), [`${fig10.ORDERS.length} orders`]: fig10.ORDERS };
+  return heatFigure({
+    title: 'Affine maps and orders', rows: Object.keys(attacks), columns: marks.map(nameOf),
+    caption: 'Trials of which every bit was read, of how many.',
+    rowsOf: (name, column) => { const mark = marks.find((one) => nameOf(one) === column); return context.rows.select({ scheme: mark.scheme, settings: mark.settings, payload: mark.payload, model: mark.model, attack: attacks[name] }); },
+  });
+}
