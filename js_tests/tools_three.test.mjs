@@ -15,7 +15,7 @@ const three = noChromium ? null : await openThree({ after });
 const scene = await webScene();
 
 test('GLTFExporter', { skip: noChromium }, (t) =>
-  assertRoundTrip(t, { name: 'GLTFExporter', run: (model) => three.exported(model) }, scene, { survives: true }));
+  assertRoundTrip(t, { name: 'GLTFExporter', run: (model) => three.written('GLTFExporter', model) }, scene, { survives: true }));
 
 test('a marked scene looks as it did, also one that a tool wrote', { skip: noChromium }, async (t) => {
   const key = await fixedKey(8);

@@ -56,10 +56,10 @@ export function readImageFiles(path) {
   return Object.fromEntries(uris.map((uri) => [uri, readFileSync(join(dirname(path), decodeURIComponent(uri)))]));
 }
 
-/** Runs a program to its end: { status, stdout (Buffer), stderr (text), json (parsed lines of stdout) }. */
-export function run(program, args, { input, cwd, env } = {}) {
+/** Runs a program to its end: { status (null: killed, as after `timeout` ms), stdout (Buffer), stderr (text), json (parsed lines of stdout) }. */
+export function run(program, args, { input, cwd, env, timeout } = {}) {
   return new Promise((resolveRun, reject) => {
-    const child = spawn(program, args, { cwd, env: { ...process.env, QUADMARK_KEY_FILE: '', ...env } });
+    const child = spawn(program, args, { cwd, timeout, env: { ...process.env, QUADMARK_KEY_FILE: '', ...env } });
     const out = [];
     let stderr = '';
     child.stdout.on('data', (chunk) => out.push(chunk));

@@ -9,7 +9,14 @@ import { repository } from './files.mjs';
 import { isGlb } from './gltf.mjs';
 
 const origin = 'http://three.test';
-const dracoFolder = join(repository, 'node_modules/three/examples/jsm/libs/draco/gltf');
+const modules = join(repository, 'node_modules');
+// Where the page finds them: three's decoder, and the encoder of which its DRACOExporter wants the script loaded.
+const dracoFiles = Object.entries({
+  '/draco/draco_wasm_wrapper.js': 'three/examples/jsm/libs/draco/gltf/draco_wasm_wrapper.js',
+  '/draco/draco_decoder.wasm': 'three/examples/jsm/libs/draco/gltf/draco_decoder.wasm',
+  '/draco_encoder.js': 'draco3dgltf/draco_encoder_gltf_nodejs.js',
+  '/draco_encoder.wasm': 'draco3dgltf/draco_encoder.wasm',
+});
 
 async function pageScript() {
   const [{ output }] = await build({
@@ -38,9 +45,9 @@ export async function openThree(t) {
   const context = await openChromium(t, { webgl: true });
   const page = await context.newPage();
   const files = new Map([
-    ['/', { contentType: 'text/html', body: '<!doctype html><script type="module" src="scene.js"></script>' }],
+    ['/', { contentType: 'text/html', body: '<!doctype html><script src="draco_encoder.js"></script><script type="module" src="scene.js"></script>' }],
     ['/scene.js', { contentType: 'text/javascript', body: script }],
-    ...['draco_wasm_wrapper.js', 'draco_decoder.wasm'].map((name) => [`/draco/${name}`, { body: readFileSync(join(dracoFolder, name)) }]),
+    ...dracoFiles.map(([url, path]) => [url, { body: readFileSync(join(modules, path)) }]),
   ]);
   const trouble = [];
   page.on('console', (message) => { if (message.type() === 'error') trouble.push(message.text()); });
@@ -77,8 +84,10 @@ export async function openThree(t) {
     /** { before, after, difference: data: URLs, covered, most, mean }: levels of 255, those shown `amplify` times as large. */
     pictures: (before, after, amplify) => withModels([before, after],
       (...urls) => page.evaluate(([one, two, times]) => window.three.pictures(one, two, times), [...urls, amplify])),
-    /** The GLB that GLTFExporter writes. */
-    exported: async (model, resources) => Buffer.from(
-      await withModels([{ model, resources }], (url) => page.evaluate((where) => window.three.exported(where), url)), 'base64'),
+    /** What one of three's exporters writes: GLTFExporter, DRACOExporter, PLYExporter (ascii); OBJ and STL, back as a GLB. */
+    written: async (exporter, model, resources) => Buffer.from(await withModels([{ model, resources }],
+      (url) => page.evaluate(([where, name]) => window.three.written(where, name), [url, exporter])), 'base64'),
+    /** Three's revision. */
+    version: () => page.evaluate(() => window.three.revision),
   };
 }

@@ -2,10 +2,16 @@
 // Runs in Chromium: models loaded, drawn and exported by three, as a viewer on the web does it.
 import * as THREE from 'three';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
+import { DRACOExporter } from 'three/addons/exporters/DRACOExporter.js';
 import { GLTFExporter } from 'three/addons/exporters/GLTFExporter.js';
+import { OBJExporter } from 'three/addons/exporters/OBJExporter.js';
+import { PLYExporter } from 'three/addons/exporters/PLYExporter.js';
+import { STLExporter } from 'three/addons/exporters/STLExporter.js';
 import { DRACOLoader } from 'three/addons/loaders/DRACOLoader.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { OBJLoader } from 'three/addons/loaders/OBJLoader.js';
 import { PLYLoader } from 'three/addons/loaders/PLYLoader.js';
+import { STLLoader } from 'three/addons/loaders/STLLoader.js';
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 
 const SIZE = 512;
@@ -114,6 +120,25 @@ function apart(before, after, amplify) {
   return { covered: covered / (before.length / 4), most, mean: covered > 0 ? sum / covered : 0, shown };
 }
 
+/** The only mesh of a model, for exporters that take no more. */
+function onlyMesh(root) {
+  const meshes = [];
+  root.traverse((object) => { if (object.isMesh) meshes.push(object); });
+  if (meshes.length !== 1) throw new Error(`it takes one mesh, and this model has ${meshes.length}`);
+  return meshes[0];
+}
+
+const glb = (root, animations = []) => new GLTFExporter().parseAsync(root, { binary: true, animations });
+
+// By exporter; files of kinds that we do not read come back as a GLB, over three's own loader.
+const written = {
+  GLTFExporter: ({ root, clips }) => glb(root, clips),
+  DRACOExporter: ({ root }) => new DRACOExporter().parseAsync(onlyMesh(root)),
+  PLYExporter: ({ root }) => new PLYExporter().parse(root, null, { binary: false }),
+  OBJExporter: ({ root }) => glb(new OBJLoader().parse(new OBJExporter().parse(root))),
+  STLExporter: ({ root }) => glb(new THREE.Mesh(new STLLoader().parse(new STLExporter().parse(root, { binary: true }).buffer))),
+};
+
 window.three = {
   /** What three finds in a model. */
   async describe(url) {
@@ -151,13 +176,13 @@ window.three = {
     return { before: encoded(first), after: encoded(second), difference: encoded(shown), ...figures };
   },
 
-  /** What GLTFExporter makes of a model, as base64 of a GLB. */
-  async exported(url) {
-    const { root, clips } = await load(url);
-    const glb = await new GLTFExporter().parseAsync(root, { binary: true, animations: clips });
+  /** What one of three's exporters makes of a model, as base64. */
+  async written(url, exporter) {
     const reader = new FileReader();
-    reader.readAsDataURL(new Blob([glb]));
+    reader.readAsDataURL(new Blob([await written[exporter](await load(url))]));
     await new Promise((resolve) => { reader.onload = resolve; });
     return reader.result.slice(reader.result.indexOf(',') + 1);
   },
+
+  revision: THREE.REVISION,
 };
