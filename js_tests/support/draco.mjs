@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Draco data made by the real encoder.
+// Draco data made by the real encoder, and read by the real decoder.
 import draco3d from 'draco3dgltf';
 import { makeGlb, openGltf } from './gltf.mjs';
 
 const encoder = await draco3d.createEncoderModule();
+const decoder = await draco3d.createDecoderModule();
 
 /**
  * Compresses a triangle mesh.
@@ -33,6 +34,18 @@ export function encodeDraco(attributes, indices, { method = 'edgebreaker', bits 
   const bytes = Buffer.from(Array.from({ length }, (_, i) => out.GetValue(i) & 255));
   for (const object of [out, coder, mesh, builder]) encoder.destroy(object);
   return { bytes, ids };
+}
+
+/** The positions of a bare .drc, x y z x y z ... */
+export function decodeDraco(bytes) {
+  const coder = new decoder.Decoder(), mesh = new decoder.Mesh(), values = new decoder.DracoFloat32Array();
+  try {
+    if (!coder.DecodeArrayToMesh(new Int8Array(bytes), bytes.length, mesh).ok()) throw new Error('not a Draco mesh');
+    coder.GetAttributeFloatForAllPoints(mesh, coder.GetAttribute(mesh, coder.GetAttributeId(mesh, decoder.POSITION)), values);
+    return Float64Array.from({ length: values.size() }, (_, i) => values.GetValue(i));
+  } finally {
+    for (const object of [values, mesh, coder]) decoder.destroy(object);
+  }
 }
 
 /** { positions, normals, uvs, indices } of a GLB with one primitive; made-up normals and texture coordinates. */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What others say of a glTF: the Khronos validator and glTF-Transform with every extension and decoder it has.
-import { NodeIO } from '@gltf-transform/core';
+import { Logger, NodeIO } from '@gltf-transform/core';
 import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 import draco3d from 'draco3dgltf';
 import validator from 'gltf-validator';
@@ -22,7 +22,7 @@ export async function validatorErrors(model, resources = {}) {
 
 const reader = (async () => {
   await MeshoptDecoder.ready;
-  return new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies({
+  return new NodeIO().setLogger(new Logger(Logger.Verbosity.ERROR)).registerExtensions(ALL_EXTENSIONS).registerDependencies({
     'draco3d.decoder': await draco3d.createDecoderModule(),
     'meshopt.decoder': MeshoptDecoder,
   });

@@ -18,7 +18,7 @@ const onPath = (name) => {
   const path = (process.env.PATH ?? '').split(delimiter).map((folder) => join(folder, name)).find((file) => existsSync(file));
   return path ? [path] : null;
 };
-const ours = { find: inNode('.'), setup: SETUP }, evaluation = { find: inNode('bench/evaluation'), setup: SETUP_EVALUATION };
+const ours = { find: inNode('.'), setup: SETUP }, evaluation = { find: inNode('bench/evaluation/programs'), setup: SETUP_EVALUATION };
 const debian = { find: onPath, setup: SETUP_EVALUATION };
 
 const lastWord = (text) => text.trim().split(/\s+/).at(-1);

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// A model through a command line of lines.mjs.
+import { noChromium } from '../../../js_tests/support/chromium.mjs';
+import { openThree } from '../../../js_tests/support/three.mjs';
+import { missing, runTool, toolVersion } from '../../../js_tests/support/tools.mjs';
+import { describe, describeModel, disappointment } from './made.mjs';
+import { besideLarge } from './scene.mjs';
+
+const stepsOf = (line) => line.split(' | ');
+const isThree = (step) => step.startsWith('three ');
+const isScene = (step) => step.startsWith('scene 1/');
+
+/** Why a command line cannot be run on this machine, or null. */
+export function notHere(line) {
+  for (const step of stepsOf(line)) {
+    const reason = isScene(step) ? null : isThree(step) ? noChromium || null : missing(step);
+    if (reason) return reason;
+  }
+  return null;
+}
+
+/** Everything that command lines need; close() ends it. */
+export function openTools() {
+  const endings = [];
+  let opened = null;
+  const three = () => (opened ??= openThree({ after: (end) => endings.push(end) }));  // most runs need no browser
+
+  return {
+    /**
+     * @param tool  of TOOL_LINES
+     * @return { bytes, note }: the file that the last step wrote, and what it made; where it failed { bytes: null, note }
+     */
+    async through({ line, expects }, glb) {
+      try {
+        let bytes = glb, before = glb;
+        for (const step of stepsOf(line)) {
+          if (isScene(step)) {
+            before = bytes = await besideLarge(bytes, Number(step.slice('scene 1/'.length)));
+          } else if (isThree(step)) {
+            if (noChromium) throw new Error(noChromium);
+            bytes = await (await three()).written(step.slice('three '.length), bytes);
+          } else {
+            bytes = await runTool(step, bytes);
+          }
+        }
+        const was = await describeModel(before), made = await describeModel(bytes);
+        const wrong = disappointment(expects, made, was);
+        return wrong ? { bytes: null, note: `${line}: ${wrong}` } : { bytes, note: describe(made, was) };
+      } catch (error) {
+        return { bytes: null, note: error.message.replace(/\s+/g, ' ').trim().slice(0, 300) };
+      }
+    },
+
+    /** { program: version } of the programs of these lines, as they say themselves; null for those that are not here. */
+    async versions(tools) {
+      const steps = tools.flatMap(({ line }) => stepsOf(line)).filter((step) => !isScene(step));
+      const byProgram = new Map(steps.map((step) => [step.split(' ')[0], step]));
+      const asked = [...byProgram].map(async ([program, step]) => {
+        if (!isThree(step)) return [program, await toolVersion(step)];
+        return [program, noChromium ? null : `r${await (await three()).version()}`];
+      });
+      return Object.fromEntries(await Promise.all(asked));
+    },
+
+    async close() {
+      for (const end of endings) await end();
+    },
+  };
+}
