@@ -7,6 +7,8 @@
 #
 #   scripts/setup.sh             everything
 #   scripts/setup.sh --no-browser  without Chromium (page tests then need QUADMARK_CHROMIUM)
+#   scripts/setup.sh --evaluation  also the programs whose output only the full bench/evaluate reads: Blender, assimp,
+#                                  Draco's, gltfjsx
 #
 # Leaves build/deps/env.sh, which the other scripts read.
 set -euo pipefail
@@ -20,10 +22,11 @@ readonly em_minimum=3.1.6
 readonly draco_sha256=0d4ff5b218a2f9d836c6f44202918402591407b5f59a5103ec288c5600ab087f
 readonly meshoptimizer_sha256=881ea2cc687f1fef5ce70484e0ca6504e13856dd856677749f3763bc685956d3
 
-want_browser=yes
+want_browser=yes want_evaluation=no
 for argument in "$@"; do
   case $argument in
     --no-browser) want_browser=no ;;
+    --evaluation) want_evaluation=yes ;;
     *) echo "setup: unknown argument $argument" >&2; exit 2 ;;
   esac
 done
@@ -174,6 +177,17 @@ if ! cmp -s package-lock.json node_modules/.quadmark-lock.json; then
   say "installing npm packages"
   npm ci --no-audit --no-fund --silent || fail "npm ci failed"
   cp package-lock.json node_modules/.quadmark-lock.json
+fi
+
+#    Those of the evaluation stay apart: they bring their own versions of what the workspace uses.
+programs=bench/evaluation/programs
+if [ $want_evaluation = yes ]; then
+  install_packages blender python3-numpy assimp-utils draco
+  if ! cmp -s $programs/package-lock.json $programs/node_modules/.quadmark-lock.json; then
+    say "installing the npm packages of the evaluation"
+    npm ci --prefix $programs --no-audit --no-fund --silent || fail "npm ci failed in $programs"
+    cp $programs/package-lock.json $programs/node_modules/.quadmark-lock.json
+  fi
 fi
 
 # 7. The versions of Node that the package promises to run on, for the tests of its tarball.

@@ -24,6 +24,13 @@ export function openTools() {
   const endings = [];
   let opened = null;
   const three = () => (opened ??= openThree({ after: (end) => endings.push(end) }));  // most runs need no browser
+  let turn = Promise.resolve();
+  /** One call of the page at a time: it keeps one model's files and complaints. */
+  const written = (exporter, model) => {
+    const result = turn.then(async () => (await three()).written(exporter, model));
+    turn = result.catch(() => {});
+    return result;
+  };
 
   return {
     /**
@@ -38,7 +45,7 @@ export function openTools() {
             before = bytes = await besideLarge(bytes, Number(step.slice('scene 1/'.length)));
           } else if (isThree(step)) {
             if (noChromium) throw new Error(noChromium);
-            bytes = await (await three()).written(step.slice('three '.length), bytes);
+            bytes = await written(step.slice('three '.length), bytes);
           } else {
             bytes = await runTool(step, bytes);
           }
