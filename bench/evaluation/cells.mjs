@@ -6,7 +6,7 @@ const mean = (list) => list.reduce((sum, x) => sum + x, 0) / list.length;
 const percent = (share) => (share === 0 ? '0' : share < 0.0005 ? '<.05' : (100 * share).toFixed(1).replace(/^0\./, '.'));
 
 /** Rows of one cell that say something: neither refused nor of a tool that failed. */
-const readings = (rows) => rows.filter((row) => row.outcome !== 'refused' && row.outcome !== 'failed');
+export const readings = (rows) => rows.filter((row) => row.outcome !== 'refused' && row.outcome !== 'failed');
 
 function without(rows) {
   if (rows.length === 0) return { text: 'not measured', trials: null };

@@ -34,5 +34,6 @@ import * as table1 from './experiments/table1.mjs';
 import * as table2 from './experiments/table2.mjs';
 import * as table3 from './experiments/table3.mjs';
 import * as table4 from './experiments/table4.mjs';
+import * as tools from './experiments/tools.mjs';
 
-export const experiments = [table1, table2, table3, table4, fig5, fig9, fig10, fig11, models, liris, distortion, pictures, chance];
+export const experiments = [table1, table2, table3, table4, fig5, fig9, fig10, fig11, models, liris, distortion, tools, pictures, chance];

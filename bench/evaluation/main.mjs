@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// bench/evaluate: schemes x payloads x models x attacks x seeds. Rows and machine go to bench/results/, docs/evaluation.md is
-// made of them. What has a row is not measured again: an interrupted run goes on where it stopped.
-import { existsSync, mkdirSync, rmSync, writeFileSync } from 'node:fs';
+// bench/evaluate: schemes x payloads x models x attacks x seeds. Rows and machine go to bench/results/, docs/evaluation.md and
+// the table of tools in README.md are made of them. What has a row is not measured again: an interrupted run goes on where
+// it stopped.
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { join, resolve } from 'node:path';
 import { Command, InvalidArgumentError } from 'commander';
 import { ProgressBar } from '../../node/src/cli/progress.js';
+import { replaceTable } from '../support/table.mjs';
 import { machineFile, recordedContext, rowsFile } from './context.mjs';
 import { writeDocument } from './document.mjs';
 import { experiments } from './experiments.mjs';
@@ -14,6 +16,7 @@ import { repository } from './paths.mjs';
 import { writeReport } from './report.mjs';
 import { Rows } from './rows.mjs';
 import { openJobs, runJobs } from './runner.mjs';
+import { shortTable } from './tools/tables.mjs';
 import { askWorker } from './worker.mjs';
 
 const FULL_SEEDS = 5;
@@ -45,7 +48,8 @@ const options = program.parse().opts();
 const chosen = options.experiment ?? experiments;
 const seeds = Array.from({ length: options.seeds ?? (options.quick ? 1 : FULL_SEEDS) }, (_, i) => i + 1);
 const folder = resolve(options.out ?? join(repository, options.quick ? 'build/evaluation/quick' : 'bench/results'));
-const documentFile = options.quick || options.out ? join(folder, 'evaluation.md') : join(repository, 'docs/evaluation.md');
+const isPublished = !options.quick && !options.out;
+const documentFile = isPublished ? join(repository, 'docs/evaluation.md') : join(folder, 'evaluation.md');
 mkdirSync(folder, { recursive: true });
 
 const interrupt = new AbortController();
@@ -113,7 +117,9 @@ async function measureAll() {
   const errors = await measure(context, about);
   rows.sort();
   if (rows.added > 0 || !existsSync(machineFile(folder))) {
-    const tools = Object.assign({}, ...(await Promise.all(chosen.map((experiment) => experiment.tools?.(context) ?? {}))));
+    // Programs of experiments that were not chosen now keep their versions.
+    const earlier = existsSync(machineFile(folder)) ? JSON.parse(readFileSync(machineFile(folder), 'utf8')).tools : {};
+    const tools = Object.assign(earlier, ...(await Promise.all(chosen.map((experiment) => experiment.tools?.(context) ?? {}))));
     writeFileSync(machineFile(folder), `${JSON.stringify({ ...machine, tools }, null, 2)}\n`);
   }
   console.log(`${rows.added} rows measured, ${rows.select().length} in ${rowsFile(folder)}`);
@@ -124,5 +130,6 @@ async function measureAll() {
 if (!options.document) process.exitCode = await measureAll();
 const recorded = recordedContext(folder, { quick: options.quick }), reportFile = join(folder, 'report.html');
 writeDocument(documentFile, recorded);
+if (isPublished) replaceTable(join(repository, 'README.md'), 'tools', shortTable(recorded));
 await writeReport(reportFile, recorded);
 console.log(`${documentFile}\n${reportFile}`);

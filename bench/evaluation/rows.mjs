@@ -100,10 +100,23 @@ export class Rows {
     return near.filter((row) => tests.every(([column, wanted]) => fits(row[column], wanted)));
   }
 
+  /** Drops the rows of which test(row) is true, so that they are measured again. */
+  forget(test) {
+    const kept = this.#rows.filter((row) => !test(row));
+    if (kept.length === this.#rows.length) return;
+    this.#rows = kept;
+    this.#names = new Set(kept.map(nameOf));
+    this.#write();
+  }
+
   /** Orders the file by name. */
   sort() {
     if (!existsSync(this.#path)) return;
     this.#rows.sort(byName);
+    this.#write();
+  }
+
+  #write() {
     writeFileSync(`${this.#path}.new`, `${COLUMNS.join(',')}\n${this.#rows.map(lineOf).join('')}`);
     renameSync(`${this.#path}.new`, this.#path);
   }

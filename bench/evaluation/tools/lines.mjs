@@ -55,5 +55,12 @@ export const TOOL_LINES = [
   ]),
 ];
 
+/** Our own marks that are sent through them, and how tables head their columns. */
+export const OURS = [
+  { head: '`robust`', scheme: 'robust', settings: 'standard' },
+  { head: '`robust`, `strong`', scheme: 'robust', settings: 'strong' },
+  { head: '`paper`, L = 2', scheme: 'paper', settings: 'L=2' },
+];
+
 /** The head of a row in a table. */
 export const labelOf = (line) => TOOL_LINES.find((tool) => tool.line === line)?.says ?? `\`${line}\``;

@@ -16,10 +16,15 @@ function positionsOfPly(ply) {
   return Float64Array.from({ length: count }, (_, i) => bytes[read](end + size * i));
 }
 
+function glTFTransformCannotRead(model) {
+  const { extensionsUsed = [], images = [] } = openGltf(model).json;
+  return extensionsUsed.includes('KHR_meshopt_compression') || images.some(({ uri }) => uri && !uri.startsWith('data:'));
+}
+
 /** Positions, x y z x y z ..., one array for each primitive or one for all. */
 async function positionsOf(model) {
   if (Buffer.from(model).toString('latin1', 0, 5) === 'DRACO') return [decodeDraco(model)];
-  if (!isGlb(model) || extensionsOf(model).includes('KHR_meshopt_compression')) {  // which glTF-Transform does not know
+  if (!isGlb(model) || glTFTransformCannotRead(model)) {
     return [positionsOfPly((await attack(model, { kind: 'noise', amount: 0, format: 'ply' })).bytes)];
   }
   const primitives = (await readDocument(model)).getRoot().listMeshes().flatMap((mesh) => mesh.listPrimitives());

@@ -25,9 +25,17 @@ export function openTools() {
   let opened = null;
   const three = () => (opened ??= openThree({ after: (end) => endings.push(end) }));  // most runs need no browser
   let turn = Promise.resolve();
-  /** One call of the page at a time: it keeps one model's files and complaints. */
+  /** One call of the page at a time: it keeps one model's files and complaints. A browser that went away is opened again, once. */
   const written = (exporter, model) => {
-    const result = turn.then(async () => (await three()).written(exporter, model));
+    const result = turn.then(async () => {
+      try {
+        return await (await three()).written(exporter, model);
+      } catch (error) {
+        if (!/has been closed/.test(error.message)) throw error;
+        opened = null;
+        return (await three()).written(exporter, model);
+      }
+    });
     turn = result.catch(() => {});
     return result;
   };

@@ -3,7 +3,8 @@
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { mark, read } from './native.mjs';
+import { modelPath } from '../models.mjs';
+import { askWorker } from '../worker.mjs';
 
 /** How the results name a command line. */
 export const attackOf = (line) => `tool:${line}`;
@@ -18,17 +19,17 @@ const extensionOf = (bytes) => {
  * Marks a model once, sends it through each tool, reads what comes out.
  *
  * @param trial      { scheme, settings, payload, model, seed }: what every row says
- * @param modelPath  the model's file, or the name of a generated one
  * @param list       of TOOL_LINES
  * @param tools      openTools()
  * @param add        called with each row as soon as it is known
- * @param stopped    called before each tool: whether to leave it at that
+ * @param stopped    whether to leave it at that: asked before each tool, and when one fails
  */
-export async function runTrial(trial, modelPath, list, tools, add, stopped = () => false) {
+export async function runTrial(trial, list, tools, add, stopped = () => false) {
+  const { scheme, settings, payload, model, seed } = trial;
   const folder = mkdtempSync(join(tmpdir(), 'quadmark-trial-'));
   try {
     const file = join(folder, 'marked.glb');
-    const { outcome, note } = await mark(trial, modelPath, file);
+    const { outcome, note } = await askWorker('mark', scheme, settings, payload, modelPath(model), String(seed), file);
     const rowOf = (tool, columns) => ({ ...trial, attack: attackOf(tool.line), ...columns });
     if (outcome !== 'written') {
       for (const tool of list) add(rowOf(tool, { outcome, note }));
@@ -39,12 +40,13 @@ export async function runTrial(trial, modelPath, list, tools, add, stopped = () 
       if (stopped()) return;
       const made = await tools.through(tool, glb);
       if (made.bytes === null) {
+        if (stopped()) return;  // what stops us stops the tool
         add(rowOf(tool, { outcome: 'failed', note: made.note }));
         continue;
       }
       const path = join(folder, `made.${extensionOf(made.bytes)}`);
       writeFileSync(path, made.bytes);
-      add(rowOf(tool, { ...await read(trial, path), note: made.note }));
+      add(rowOf(tool, { ...await askWorker('read', scheme, settings, payload, path, String(seed)), note: made.note }));
     }
   } finally {
     rmSync(folder, { recursive: true, force: true });
