@@ -40,7 +40,7 @@ export function openJobs(jobs, rows) {
  * Measures. Rows are kept as they come.
  *
  * @param jobs      as openJobs() gives them
- * @param progress  (done, job) => void, after every row: `done` of the job, 0 to 1
+ * @param progress  (done, job) => void, after every row: `done` of the job, 0 to 1, once 1 when it ended
  * @return errors, as sentences; what they are about has no rows
  */
 export async function runJobs(jobs, { rows, parallel, signal, progress }) {
@@ -57,7 +57,7 @@ export async function runJobs(jobs, { rows, parallel, signal, progress }) {
         try {
           await worker.run({ ...job, model: modelPath(job.model) }, (row) => {
             if (!rows.has(row)) rows.add(row);  // a picture may have been all that was missing
-            progress?.(++done / all, job);
+            if (++done < all) progress?.(done / all, job);
           });
         } catch (error) {
           if (signal?.aborted) break;
