@@ -8,10 +8,21 @@
 namespace quadmark::robust {
 namespace {
 
-struct HalfEdge {
-  std::uint32_t high;      // the other end; the lower one is the bucket
-  std::uint32_t opposite;  // third corner of its triangle, or kNoVertex in a polygon
-  bool down;               // its triangle runs along it from the higher end to the lower
+// One number each, for there are six per vertex. The lower end is the bucket.
+class HalfEdge {
+ public:
+  HalfEdge() = default;
+  HalfEdge(std::uint32_t high, bool down, std::uint32_t opposite)
+      : packed_(std::uint64_t{high} << 33 | std::uint64_t{down} << 32 | opposite) {}
+  // The other end.
+  [[nodiscard]] std::uint32_t high() const { return static_cast<std::uint32_t>(packed_ >> 33); }
+  // Third corner of its triangle, or kNoVertex in a polygon.
+  [[nodiscard]] std::uint32_t opposite() const { return static_cast<std::uint32_t>(packed_); }
+  // By the other end; then those whose triangle runs along them from the lower end to the higher before the others.
+  bool operator<(const HalfEdge& other) const { return packed_ < other.packed_; }
+
+ private:
+  std::uint64_t packed_ = 0;
 };
 
 // Half-edges bucketed by their lower end.
@@ -30,7 +41,7 @@ std::vector<HalfEdge> bucketEdges(const Surface& surface, std::vector<std::uint3
   std::vector<HalfEdge> edges(offsets.back());
   std::vector<std::uint32_t> cursor(offsets.begin(), offsets.end() - 1);
   forEach([&](std::uint32_t x, std::uint32_t y, std::uint32_t opposite) {
-    edges[cursor[std::min(x, y)]++] = {std::max(x, y), opposite, x > y};
+    edges[cursor[std::min(x, y)]++] = {std::max(x, y), x > y, opposite};
   });
   return edges;
 }
@@ -44,16 +55,14 @@ std::vector<Diamond> collectDiamonds(const Surface& surface) {
   out.reserve(edges.size() / 2);
   for (std::uint32_t v = 0; v < surface.vertexCount(); ++v) {
     const auto begin = edges.begin() + offsets[v], end = edges.begin() + offsets[v + 1];
-    sortShort(begin, end, [](const HalfEdge& x, const HalfEdge& y) {
-      if (x.high != y.high) return x.high < y.high;
-      return x.down != y.down ? y.down : x.opposite < y.opposite;
-    });
+    sortShort(begin, end);
     for (auto e = begin; e != end;) {
       auto next = e;
-      while (next != end && next->high == e->high) ++next;
-      const bool pair = next - e == 2 && e->opposite != (e + 1)->opposite && e->opposite != kNoVertex &&
-                        (e + 1)->opposite != kNoVertex;
-      if (pair) out.push_back({e->opposite, v, (e + 1)->opposite, e->high});
+      while (next != end && next->high() == e->high()) ++next;
+      if (next - e == 2) {
+        const std::uint32_t one = e->opposite(), other = (e + 1)->opposite();
+        if (one != other && one != kNoVertex && other != kNoVertex) out.push_back({one, v, other, e->high()});
+      }
       e = next;
     }
   }

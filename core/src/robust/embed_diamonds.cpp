@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "diamond_queues.h"
 #include "survival.h"
@@ -21,15 +22,15 @@ std::vector<std::uint8_t> sharpVertices(const std::vector<double>& positions, co
   return sharp;
 }
 
+bool isFree(const Diamond& q, const std::vector<std::uint8_t>& occupied) {
+  return (occupied[q.a] | occupied[q.b] | occupied[q.c] | occupied[q.d]) == 0;
+}
+
 class Writer {
  public:
   Writer(const Surface& surface, const FacesAround& facesAround, const DiamondLimits& limits,
          std::vector<std::uint8_t>& occupied, std::vector<double>& positions)
       : surface_(surface), facesAround_(facesAround), limits_(limits), occupied_(occupied), positions_(positions) {}
-
-  [[nodiscard]] bool free(const Diamond& q) const {
-    return occupied_[q.a] == 0 && occupied_[q.b] == 0 && occupied_[q.c] == 0 && occupied_[q.d] == 0;
-  }
 
   // Moves the four vertices by the least total displacement that brings both diagonals to meet at the fine cell's
   // centre. False, with everything as it was, when a face turns or a vertex moves too far.
@@ -73,35 +74,38 @@ class Writer {
   std::vector<double>& positions_;
 };
 
-std::vector<Candidate> findCandidates(const Surface& surface, const std::vector<double>& positions,
-                                      const std::vector<Diamond>& diamonds, const DeltaClass& shape,
-                                      const DiamondLimits& limits, const Writer& writer) {
+}  // namespace
+
+DiamondCandidates findCandidates(const Surface& surface, std::vector<Diamond> diamonds, const DeltaClass& shape,
+                                 const DiamondLimits& limits, const std::vector<std::uint8_t>& occupied,
+                                 const std::vector<double>& positions) {
   const std::vector<std::uint8_t> sharp = sharpVertices(positions, diamonds, limits.sharpCosine);
-  std::vector<Candidate> out;
+  std::vector<Candidate> items;
   const Survival survival(surface, positions);
   DiamondShape s;
-  for (std::uint32_t i = 0; i < diamonds.size(); ++i) {
-    const Diamond& q = diamonds[i];
-    if (!writer.free(q) || (sharp[q.a] | sharp[q.b] | sharp[q.c] | sharp[q.d]) != 0) continue;
+  for (const Diamond& q : diamonds) {
+    if (!isFree(q, occupied) || !isFree(q, sharp)) continue;
     if (!diamondShape(positions, q, s) || s.gapLength > limits.mostGap * std::min(s.edgeLength, s.spanLength)) continue;
     const auto [edge, span] = ratiosOf(s);
     if (!fineCell(edge, span, shape).isIn(shape)) continue;
-    out.push_back({i, static_cast<float>(edge), static_cast<float>(span), static_cast<float>(s.edgeLength),
-                   static_cast<float>(s.spanLength), static_cast<float>(s.gapLength), survival.reluctance(q)});
+    const auto number = static_cast<std::uint32_t>(items.size());
+    items.push_back({number, static_cast<float>(edge), static_cast<float>(span), static_cast<float>(s.edgeLength),
+                     static_cast<float>(s.spanLength), static_cast<float>(s.gapLength), survival.reluctance(q)});
+    diamonds[number] = q;
   }
-  return out;
+  diamonds.resize(items.size());
+  diamonds.shrink_to_fit();
+  return {std::move(diamonds), std::move(items)};
 }
 
-}  // namespace
-
 DiamondEmbedding embedDiamonds(const Surface& surface, const FacesAround& facesAround,
-                               const std::vector<Diamond>& diamonds, const Constellation& constellation, const CodedPayload& payload,
-                               const DiamondLimits& limits, std::vector<std::uint8_t>& occupied,
+                               DiamondCandidates candidates, const Constellation& constellation,
+                               const CodedPayload& payload, const DiamondLimits& limits, std::vector<std::uint8_t>& occupied,
                                std::vector<double>& positions) {
   DiamondEmbedding out;
   const DeltaClass& shape = constellation.shape();
   Writer writer(surface, facesAround, limits, occupied, positions);
-  std::vector<Candidate> candidates = findCandidates(surface, positions, diamonds, shape, limits, writer);
+  auto& [diamonds, items] = candidates;
 
   // 1. The good fine cells: those whose meaning is what the payload says.
   const std::vector<std::uint32_t> goodSymbols = constellation.goodSymbols(payload);
@@ -120,19 +124,18 @@ DiamondEmbedding embedDiamonds(const Surface& surface, const FacesAround& facesA
   std::vector<std::uint32_t> copies(goodCells.size(), 0);
   constexpr int kGenerations = 6;
   for (int generation = 0; generation < kGenerations; ++generation) {
-    const DiamondQueues queues(candidates, shape, goodCells, wanted);
-    std::vector<std::uint32_t> next(goodCells.size());
-    for (std::size_t g = 0; g < goodCells.size(); ++g) next[g] = queues.range(g).begin;
+    const DiamondQueues queues(items, shape, goodCells, wanted);
+    std::vector<std::size_t> next(goodCells.size(), 0);
     const std::size_t before = out.cells.size();
     for (bool any = true; any;) {
       any = false;
       for (std::size_t g = 0; g < goodCells.size(); ++g)
-        while (next[g] < queues.range(g).end) {
-          if (next[g] >= queues.range(g).far && copies[g] >= farShare) break;
-          const Candidate& c = candidates[queues.entry(next[g]++).candidate];
+        while (next[g] < queues.size(g)) {
+          if (next[g] >= queues.nearCount(g) && copies[g] >= farShare) break;
+          const Candidate& c = items[queues.candidate(g, next[g]++)];
           const Diamond& q = diamonds[c.diamond];
           DiamondShape s;
-          if (!writer.free(q) || !diamondShape(positions, q, s)) continue;
+          if (!isFree(q, occupied) || !diamondShape(positions, q, s)) continue;
           const FineCell cell = FineCell::ofNumber(goodCells[g], shape);
           const double edge = edgeCentre(cell.edge, shape), span = spanCentre(cell.span, shape);
           const bool turned = s.alongEdge >= 0.5;  // as in ratiosOf()
@@ -147,9 +150,10 @@ DiamondEmbedding embedDiamonds(const Surface& surface, const FacesAround& facesA
         }
     }
     if (out.cells.size() - before <= out.cells.size() / 50) break;
-    candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
-                                    [&](const Candidate& c) { return !writer.free(diamonds[c.diamond]); }),
-                     candidates.end());
+    const std::vector<Diamond>& all = diamonds;
+    items.erase(std::remove_if(items.begin(), items.end(),
+                               [&](const Candidate& c) { return !isFree(all[c.diamond], occupied); }),
+                items.end());
   }
   return out;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "constellation.h"
+#include "diamond_queues.h"
 #include "diamonds.h"
 
 namespace quadmark::robust {
@@ -32,15 +33,29 @@ struct DiamondEmbedding {
   std::uint32_t vetoed = 0;
 };
 
+/// The diamonds that may become cells, and what each would cost.
+struct DiamondCandidates {
+  std::vector<Diamond> diamonds;
+  std::vector<Candidate> items;
+};
+
+/// Those within the limits, off occupied vertices and sharp edges. Takes the list of all diamonds, which is much memory,
+/// and gives that of the others back.
+/// @param occupied   per welded vertex: 1 = not to be moved.
+[[nodiscard]] DiamondCandidates findCandidates(const Surface& surface, std::vector<Diamond> diamonds,
+                                               const DeltaClass& shape, const DiamondLimits& limits,
+                                               const std::vector<std::uint8_t>& occupied,
+                                               const std::vector<double>& positions);
+
 /// Chooses and writes cells: each good cell has a queue of candidates by displacement, and all queues are served in
 /// turn, so that no coded bit is left with few copies. (Tried: the flattest diamonds first, as the paper does; the
 /// median good cell then gets 3 of 43 expected copies.)
-/// @param original   positions before any embedding: what faces must not turn away from.
+/// Faces must not turn away from what they are in `surface`.
 /// @param occupied   per welded vertex: 1 = not to be moved; receives the vertices of the cells.
 /// @param positions  changed in place.
 [[nodiscard]] DiamondEmbedding embedDiamonds(const Surface& surface, const FacesAround& facesAround,
-                                             const std::vector<Diamond>& diamonds, const Constellation& constellation, const CodedPayload& payload,
-                                             const DiamondLimits& limits, std::vector<std::uint8_t>& occupied,
-                                             std::vector<double>& positions);
+                                             DiamondCandidates candidates, const Constellation& constellation,
+                                             const CodedPayload& payload, const DiamondLimits& limits,
+                                             std::vector<std::uint8_t>& occupied, std::vector<double>& positions);
 
 }  // namespace quadmark::robust

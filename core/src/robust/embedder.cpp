@@ -189,10 +189,13 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   const Constellation constellation(out.deltaClass, keys, sharing, payload.headCode(), payload.bodyCode());
   std::vector<std::uint8_t> occupied(surface.vertexCount(), 0);
   for (const std::uint32_t v : carriers.vertex) occupied[v] = 1;
+  DiamondCandidates candidates =
+      findCandidates(surface, std::move(diamonds), constellation.shape(), preset.diamond, occupied, positions);
+  forgetRings(surface);
   const FacesAround facesAround(surface);
   DiamondEmbedding cells =
-      embedDiamonds(surface, facesAround, diamonds, constellation, payload, preset.diamond, occupied, positions);
-  diamonds = {};
+      embedDiamonds(surface, facesAround, std::move(candidates), constellation, payload, preset.diamond, occupied,
+                    positions);
   conceal(cells.cells, Prf(keys.assignment), preset.concealment * diagonal, positions);
 
   // 2. Layer A. Where both together are more than the preset allows, the dearest parts go, and A is written again.

@@ -133,14 +133,21 @@ struct MeshReader::State {
     mirrored = wanted;
     ringVotes.clear();
     stepsByFit.clear();
+    forgetCells();
+    surface = {};
+    carriers = {};
+    look();
+  }
+
+  void forgetCells() {
     diamondVotes.reset();
     scores.clear();
-    look();
   }
 
   const RingVotes& rings(double sharpening) {
     const auto found = ringVotes.find(sharpening);
     if (found != ringVotes.end()) return found->second;
+    if (sharpening > 0) forgetCells();  // they are not asked for beside these, and are as much memory
     const std::vector<double> positions = sharpening > 0 ? sharpened(surface, sharpening) : surface.welded.positions;
     return ringVotes.emplace(sharpening, RingVotes(carriers, ringCode, positions, edgeTensor(surface, positions)))
         .first->second;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "release.h"
+
 namespace quadmark::robust {
 namespace {
 
@@ -89,7 +91,11 @@ Surface makeSurface(const Mesh& mesh) {
 }
 
 void forgetNeighbours(Surface& surface) {
-  surface.welded.neighbours = {};
+  release(surface.welded.neighbours);
+}
+
+void forgetRings(Surface& surface) {
+  for (auto* list : {&surface.rings, &surface.ringOffsets, &surface.cornerCounts}) release(*list);
 }
 
 void turnOver(Surface& surface) {

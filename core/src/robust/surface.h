@@ -40,6 +40,8 @@ struct Surface {
 
 /// Frees what only labels are made from (`welded.neighbours`).
 void forgetNeighbours(Surface& surface);
+/// Frees rings and corner counts; ring() may not be called any more.
+void forgetRings(Surface& surface);
 
 /// Reverses the winding of all faces and rings: as the mesh would be after mirroring and mending its winding.
 void turnOver(Surface& surface);
