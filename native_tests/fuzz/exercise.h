@@ -21,6 +21,10 @@ using Problem = std::string;
 /// The same with the resources that the seeds refer to.
 [[nodiscard]] Problem exerciseModel(Bytes file);
 
+/// The same, but goes beyond reading, patching and reordering for one input in eight only: readers see several times as
+/// many inputs in the same time.
+[[nodiscard]] Problem exerciseReading(Bytes file);
+
 /// Parses a key file; where that works, writes it and parses it again.
 [[nodiscard]] Problem exerciseKey(Bytes file);
 
