@@ -34,7 +34,8 @@ function conclusion(context) {
   const losses = experiments.flatMap((experiment) => experiment.losses?.(context) ?? []);
   if (losses.length === 0) return 'In none of the rows above does a peer or the paper do better than our schemes.';
   return `Where a peer or the paper does better than our scheme that it is compared with; everywhere else in the tables that name both,
-ours is as good or better. In parentheses: the number of trials.
+ours is as good or better. A peer whose bits agree no more than coin flips do, at the level of 1 %, is not better than nothing. In
+parentheses: the number of trials.
 
 ${tableOf(['where', 'ours', 'theirs'], losses.map(({ where, ours, theirs }) => [where, ours, theirs]))}`;
 }

@@ -11,6 +11,8 @@ const MEASURES = {
   'largest move, %': ['max', (x) => (100 * x).toFixed(2)], 'SNR dB': ['snr', (x) => x.toFixed(1)], 'PSNR dB': ['psnr', (x) => x.toFixed(1)],
   'normals, deg': ['normals', (x) => x.toFixed(2)], MSDM2: ['msdm2', (x) => x.toFixed(3)],
 };
+// Moves coordinates by a unit in the last place: before everybody else by every measure, and gone after every attack.
+const FINEST = 'lsb-hmac';
 const MORE_IS_BETTER = ['snr', 'psnr'];
 export const models = ({ quick }) => (quick ? QUICK_MODELS.slice(0, 1) : MODELS);
 export const marks = (context) => context.schemes.flatMap(({ name: scheme, usualSettings }) =>
@@ -25,7 +27,7 @@ export const losses = (context) => models(context).flatMap((model) => Object.ent
     return values.length > 0 ? [{ scheme, count: values.length, mean: values.reduce((sum, x) => sum + x, 0) / values.length }] : [];
   });
   const sign = MORE_IS_BETTER.includes(column) ? 1 : -1;
-  const ours = means.find(({ scheme }) => scheme === 'robust'), others = means.filter(({ scheme }) => scheme !== 'robust' && scheme !== 'paper');
+  const ours = means.find(({ scheme }) => scheme === 'robust'), others = means.filter(({ scheme }) => !['robust', 'paper', FINEST].includes(scheme));
   if (!ours || others.length === 0) return [];
   const best = others.reduce((a, b) => (sign * (b.mean - a.mean) > 0 ? b : a));
   if (sign * (ours.mean - best.mean) >= 0) return [];
@@ -42,6 +44,8 @@ export function document(context) {
     : absence(model)));
   return `64-bit IDs at each scheme's usual settings. Lengths are fractions of the diagonal; what each measure is stands in
 [bench/README.md](../bench/README.md). At equal distortion the schemes are compared in the LIRIS section.
+\`lsb-hmac\` moves coordinates by a unit in the last place, which no other scheme comes near to, and which hardly any attack
+leaves there: the conclusion does not repeat it line by line.
 
 ${tables.join('\n\n')}`;
 }

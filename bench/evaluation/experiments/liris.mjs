@@ -91,12 +91,15 @@ function settingsTable(context, list, limit) {
 const average = (rows) => rows.reduce((sum, row) => sum + row.ber, 0) / rows.length;
 const isOurs = ({ name: scheme }) => scheme === 'robust';
 
-/** Attacks after which a peer's bits are better than ours. */
+/** Whether bits agree more than coin flips do, at the level of 1 %. */
+const tellsSomething = (rows) => average(rows) < 0.5 - 1.163 / Math.sqrt(64 * rows.length);
+
+/** Attacks after which a peer's bits are better than ours, and better than chance. */
 export const losses = (context) => Object.keys(LIMITS).flatMap((limit) => models(context).filter((model) => wasMeasured(context, model)).flatMap((model) =>
   attacks(context).flatMap(({ label, attack }) => {
     const measured = context.schemes.map((scheme) => ({ scheme, rows: readings(context, scheme, model, limit, attack).filter(({ ber }) => ber !== undefined) }));
     const ours = measured.find(({ scheme }) => isOurs(scheme));
-    const others = measured.filter(({ scheme, rows }) => !isOurs(scheme) && rows.length > 0);
+    const others = measured.filter(({ scheme, rows }) => !isOurs(scheme) && rows.length > 0 && tellsSomething(rows));
     if (others.length === 0) return [];
     const best = others.reduce((a, b) => (average(b.rows) < average(a.rows) ? b : a));
     if (ours.rows.length > 0 && average(ours.rows) <= average(best.rows)) return [];
