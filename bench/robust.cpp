@@ -2,7 +2,7 @@
 // quadmark_robust: the harness behind docs/robust.md. Marks models, damages them, reads the marks back.
 //
 //   quadmark_robust [--keys FIRST-LAST] [--strength invisible|standard|strong] [--payload id|image]
-//                   [--rows attacks|tools|none] [--results FILE] MODEL...
+//                   [--rows attacks|none] [--results FILE] MODEL...
 //
 // MODEL is as in models.h. Prints, and appends to FILE, two kinds of lines; those that FILE has already are
 // neither computed nor written again:
@@ -10,20 +10,14 @@
 //   read;MODEL;STRENGTH;PAYLOAD;KEY;ROW;OUTCOME;LAYERS;PROBABILITY;BER;
 // OUTCOME: exact; verified (against the expected payload, p <= 1e-6; an image that is recognised, with its bit error
 // rate); lost; wrong (another payload with certainty); refused (too little capacity: nothing was written); failed (the
-// tool, not the mark). LAYERS: A rings, B diamonds, + their sum, s after sharpening. scripts/robust.sh runs it on
-// everything, bench/robust_table.mjs makes the tables.
-#include <sys/types.h>
-#include <unistd.h>
-
+// reader, not the mark). LAYERS: A rings, B diamonds, + their sum, s after sharpening. scripts/robust.sh runs it on
+// everything, bench/robust_table.mjs makes the tables. Programs of web builds are bench/evaluate's.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
-#include "quadmark/io/model.h"
 #include "quadmark/metrics.h"
 #include "quadmark/random.h"
 #include "quadmark/robust/marker.h"
@@ -42,7 +36,7 @@ using Fields = std::vector<std::string>;
 struct Settings {
   int firstKey = 1, lastKey = 3;
   Strength strength = Strength::standard;
-  bool image = false, attacks = true, tools = false;
+  bool image = false, attacks = true;
 };
 
 SchemeKeys keysOf(int number) {
@@ -102,26 +96,6 @@ Fields outcomeOf(const Mesh& damaged, const SchemeKeys& keys, const PayloadBits&
   return {outcome, layerOf(*reading), text(reading->falsePositive, "%.1e"), ber};
 }
 
-// The mesh that a program of a web build makes of a GLB.
-Result<Mesh> throughTool(const bench::NamedTool& tool, const std::vector<std::uint8_t>& glb) {
-  const std::string stem = "/tmp/quadmark-tool-" + std::to_string(getpid()), in = stem + "-in.glb",
-                    out = stem + "-out.glb";
-  std::ofstream(in, std::ios::binary)
-      .write(reinterpret_cast<const char*>(glb.data()), static_cast<std::streamsize>(glb.size()));
-  std::remove(out.c_str());
-  std::string command = tool.command;
-  command.replace(command.find("IN"), 2, in);
-  command.replace(command.find("OUT"), 3, out);
-  const bool ran = std::system((command + " >" + stem + ".log 2>&1").c_str()) == 0;
-  std::ifstream stream(out, std::ios::binary);
-  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  for (const std::string& file : {in, out, stem + ".log"}) std::remove(file.c_str());
-  if (!ran || bytes.empty()) return Error{ErrorCode::io, tool.name + " failed"};
-  auto model = readModel(bytes);
-  if (!model) return model.error();
-  return std::move((*model)->mesh());
-}
-
 void runKey(const bench::NamedModel& model, int key, const Settings& settings, bench::ResultFile& results) {
   const Fields what = {model.name, strengthName(settings.strength), settings.image ? "image" : "id",
                        std::to_string(key)};
@@ -132,15 +106,11 @@ void runKey(const bench::NamedModel& model, int key, const Settings& settings, b
     return fields;
   };
   std::vector<bench::NamedAttack> attacks;
-  std::vector<bench::NamedTool> tools;
   if (settings.attacks)
     for (const bench::NamedAttack& attack : bench::robustAttacks())
       if ((!settings.image || bench::isForImages(attack.name)) && !results.has(keyOf("read", attack.name)))
         attacks.push_back(attack);
-  if (settings.tools)
-    for (const bench::NamedTool& tool : bench::webTools())
-      if (!results.has(keyOf("read", tool.name))) tools.push_back(tool);
-  if (attacks.empty() && tools.empty() && results.has(keyOf("mark", ""))) return;
+  if (attacks.empty() && results.has(keyOf("mark", ""))) return;
 
   const SchemeKeys keys = keysOf(key);
   const Payload payload = payloadOf(key, settings.image);
@@ -150,7 +120,6 @@ void runKey(const bench::NamedModel& model, int key, const Settings& settings, b
   if (!marked) {
     std::fprintf(stderr, "%s: %s\n", model.name.c_str(), marked.error().message.c_str());
     for (const auto& attack : attacks) results.add(keyOf("read", attack.name), {"refused", "-", "1", "-"});
-    for (const auto& tool : tools) results.add(keyOf("read", tool.name), {"refused", "-", "1", "-"});
     return;
   }
   Mesh copy = model.mesh;
@@ -165,14 +134,6 @@ void runKey(const bench::NamedModel& model, int key, const Settings& settings, b
   }
   for (const auto& attack : attacks)
     results.add(keyOf("read", attack.name), outcomeOf(attack.apply(copy), keys, marked->bits, payload));
-  if (tools.empty()) return;
-  const auto glb = bench::toGlb(model, copy.positions);
-  for (const auto& tool : tools) {
-    const Result<Mesh> damaged = glb ? throughTool(tool, *glb) : Result<Mesh>(glb.error());
-    if (!damaged) std::fprintf(stderr, "%s: %s\n", model.name.c_str(), damaged.error().message.c_str());
-    results.add(keyOf("read", tool.name), damaged ? outcomeOf(*damaged, keys, marked->bits, payload)
-                                                  : Fields{"failed", "-", "1", "-"});
-  }
 }
 
 }  // namespace
@@ -195,7 +156,7 @@ int main(int argc, char** argv) {
     } else if (argument == "--payload") {
       settings.image = value == "image";
     } else if (argument == "--rows") {
-      settings.attacks = value == "attacks", settings.tools = value == "tools";
+      settings.attacks = value == "attacks";
     } else if (argument == "--results") {
       path = value;
     } else {

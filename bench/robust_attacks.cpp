@@ -83,23 +83,4 @@ bool isForImages(const std::string& attack) {
   return names.count(attack) == 1;
 }
 
-std::vector<NamedTool> webTools() {
-  const std::string bin = "node_modules/.bin/";
-  const auto transform = [&](const std::string& name, const std::string& options) {
-    return NamedTool{"gltf-transform " + name + (options.empty() ? "" : " " + options),
-                     bin + "gltf-transform " + name + " IN OUT " + options};
-  };
-  const auto pack = [&](const std::string& options) {
-    return NamedTool{"gltfpack" + options, bin + "gltfpack" + options + " -i IN -o OUT"};
-  };
-  return {transform("optimize", ""),
-          transform("optimize", "--compress draco"),
-          transform("draco", ""),
-          transform("draco", "--quantize-position 11"),
-          transform("draco", "--quantize-position 10"),
-          pack(""),
-          pack(" -cc"),
-          pack(" -vp 12")};
-}
-
 }  // namespace quadmark::bench

@@ -19,12 +19,4 @@ struct NamedAttack {
 /// Of these, the ones that images are put to.
 [[nodiscard]] bool isForImages(const std::string& attack);
 
-struct NamedTool {
-  std::string name;
-  std::string command;  ///< for a shell; IN and OUT stand for a GLB each
-};
-
-/// The programs of web builds at their defaults.
-[[nodiscard]] std::vector<NamedTool> webTools();
-
 }  // namespace quadmark::bench

@@ -31,7 +31,6 @@ for (const line of readFileSync(resultsPath, 'utf8').split('\n')) {
 const unique = (list) => [...new Set(list)];
 const mean = (list) => list.reduce((a, b) => a + b, 0) / list.length;
 const table = (head, rows) => [head, head.map(() => '---'), ...rows].map((row) => `| ${row.join(' | ')} |`).join('\n');
-const isTool = (row) => /^(gltf|draco)/.test(row);
 
 /** Exact counts; "+n" verified, "-n" lost; layers of the exact ones. */
 function cell(list) {
@@ -71,7 +70,7 @@ function readTable(models, select) {
 }
 
 const parts = [];
-const standardId = (r) => r.payload === 'id' && r.strength === 'standard' && !isTool(r.row ?? '');
+const standardId = (r) => r.payload === 'id' && r.strength === 'standard';
 const all = unique(reads.filter(standardId).map((r) => r.model));
 const keysOf = (select) => {
   const list = reads.filter(select), models = unique(list.map((r) => r.model));
@@ -97,25 +96,6 @@ if (reads.some(isImage)) {
     parts.push(`Of those that were recognised only, the share of wrong pixels: ${unique(left.map((r) => r.row)).map((row) =>
       `${row} ${unique(left.filter((r) => r.row === row).map((r) => r.model)).map((model) =>
         `${model} ${(100 * mean(left.filter((r) => r.row === row && r.model === model).map((r) => r.ber))).toFixed(1)} %`).join(', ')}`).join('; ')}.\n`);
-  }
-}
-
-const ofTool = (r) => isTool(r.row) && r.payload === 'id';
-if (reads.some(ofTool)) {
-  parts.push('### Tools of web builds, 64-bit IDs\n');
-  for (const strength of ['standard', 'strong']) {
-    const list = reads.filter((r) => ofTool(r) && r.strength === strength);
-    if (list.length === 0) continue;
-    const models = unique(list.map((r) => r.model));
-    const rows = unique(list.map((r) => r.row)).map((row) => {
-      const here = list.filter((r) => r.row === row && r.outcome !== 'failed');
-      const exact = here.filter((r) => r.outcome === 'exact').length;
-      return [`\`${row}\``, `${exact} of ${here.length} (${(100 * exact / here.length).toFixed(0)} %)`,
-        ...models.map((model) => cell(list.filter((r) => r.row === row && r.model === model)))];
-    });
-    const counted = list.filter((r) => r.outcome !== 'failed'), exact = counted.filter((r) => r.outcome === 'exact').length;
-    parts.push(`**\`${strength}\`**, ${keysOf((r) => ofTool(r) && r.strength === strength)}: ${exact} of ${counted.length} exact (${(100 * exact / counted.length).toFixed(1)} %).\n`,
-      table(['tool', 'exact', ...models], rows) + '\n');
   }
 }
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the tables of docs/robust.md: every attack and every tool on every model, five keys each. Some two hours of one
-# core, most of them the tools'. Results are appended to build/robust.csv; what is in there is not done again, so a run may
-# be stopped and started anew. Delete the file after a change of what is written or read.
+# Makes the tables of docs/robust.md: every attack on every model, five keys each, in less than an hour of one core. Results
+# are appended to build/robust.csv; what is in there is not done again, so a run may be stopped and started anew. Delete the
+# file after a change of what is written or read. (Real tools: bench/evaluate --experiment tools.)
 #
 #   scripts/robust.sh [--keys N] [--jobs N] [--tables]     --tables: only make the tables of what there is
 #
@@ -33,8 +33,7 @@ pictures=$(here bunny.glb nefertiti.glb ogre.glb igea-tristrips.ply)
 if [ -z "$only_tables" ]; then
   cmake --preset release >build/robust.log
   cmake --build --preset release --target quadmark_robust >>build/robust.log
-  # One model and key at a time, all models of the first key first: an interrupted run has whole keys. The tools take most
-  # of the time, and come last.
+  # One model and key at a time, all models of the first key first: an interrupted run has whole keys.
   list() {  # PAYLOAD STRENGTH ROWS KEY MODEL...
     local model
     for model in "${@:5}"; do echo "--payload $1 --strength $2 --rows $3 --keys $4 --results $results $model"; done
@@ -44,9 +43,6 @@ if [ -z "$only_tables" ]; then
       list id standard attacks "$key" $real $scans $parts $grids $subdivisions $coarse
       list image standard attacks "$key" $pictures
       list id invisible none "$key" $real
-    done
-    for key in $(seq "$keys"); do
-      for strength in standard strong; do list id "$strength" tools "$key" $real; done
     done
   } | xargs -P "$jobs" -L 1 build/native/bench/quadmark_robust >/dev/null 2>>build/robust.log
 fi
