@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+import { tableOf as markdownTable } from '../../support/table.mjs';
 import { errorCell, measuredTable, recoveredCell } from '../cells.mjs';
 import { absence, QUICK_MODELS, wasMeasured } from '../models.mjs';
 
@@ -80,7 +81,7 @@ function tableOf(context, list, limit, cell) {
 }
 
 function settingsTable(context, list, limit) {
-  return measuredTable(['scheme', ...list], context.schemes.map((scheme) => [scheme.name, ...list.map((model) => {
+  return markdownTable(['scheme', ...list], context.schemes.map((scheme) => [scheme.name, ...list.map((model) => {
     const settings = settingsFor(context, scheme, model, limit);
     if (settings == null) return settings === undefined ? 'not measured' : refused(context, scheme, model) ? 'refused' : 'above the limit';
     const [{ rms, msdm2 }] = context.rows.select({ scheme: scheme.name, settings, payload, model, seed: 1, attack: 'mark' });
