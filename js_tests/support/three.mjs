@@ -43,6 +43,7 @@ const modelName = (model) => {
 export async function openThree(t) {
   const script = await pageScript();
   const context = await openChromium(t, { webgl: true });
+  context.setDefaultTimeout(120_000);  // software draws, perhaps beside other work
   const page = await context.newPage();
   const files = new Map([
     ['/', { contentType: 'text/html', body: '<!doctype html><script src="draco_encoder.js"></script><script type="module" src="scene.js"></script>' }],

@@ -39,10 +39,11 @@ async function draw(three, context, subject) {
     const { outcome, note } = await askWorker('mark', scheme, settings, payload, modelPath(model), String(SEED), marked);
     if (outcome !== 'written') return { note: `${outcome}: ${note}` };
     const { before, after, difference, ...figures } = await three.pictures({ model: readFileSync(plain) }, { model: readFileSync(marked) }, AMPLIFY);
-    const place = [model, scheme, settings].join('-').replace(/[^\w.-]/g, '_');
+    const place = (...words) => `renderings/${words.filter(Boolean).join('-').replace(/[^\w.-]/g, '_')}.webp`;
     mkdirSync(join(context.folder, 'renderings'), { recursive: true });
-    const files = Object.entries({ before, after, difference }).map(([what, url]) => {
-      const file = `renderings/${place}-${what}.webp`;
+    const pictures = [['before', before, place(model)], ['after', after, place(model, scheme, settings)],
+      ['difference', difference, place(model, scheme, settings, 'difference')]];
+    const files = pictures.map(([what, url, file]) => {
       writeFileSync(join(context.folder, file), Buffer.from(url.split(',')[1], 'base64'));
       return [what, file];
     });
@@ -72,6 +73,8 @@ export async function run(context) {
       }
       context.progress.ended(label);
     }
+  } catch (error) {
+    errors.push(`pictures: Chromium: ${error.message}`);
   } finally {
     for (const hook of hooks) await hook();
   }

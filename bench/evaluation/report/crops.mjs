@@ -15,7 +15,7 @@ function saidOf({ ber, unread } = {}) {
   if (ber === undefined || unread === 1) return 'not read';
   if (ber === 0) return 'all right';
   const wrong = ber - unread / 2;  // an unread pixel counts as half a wrong one
-  return [unread > 0 ? `${percent(unread)} unread` : '', wrong > 1e-6 ? `${percent(wrong)} wrong` : ''].filter(Boolean).join(', ');
+  return [unread > 0 ? `${percent(unread)} unread` : '', wrong > 5e-5 ? `${percent(wrong)} wrong` : ''].filter(Boolean).join(', ');  // rows hold five digits
 }
 
 function picture(context, one) {
@@ -41,7 +41,7 @@ export async function cropSection(context) {
   const curves = await curveFigure({
     title: 'Wrong pixels by what is cut off',
     caption: `The lowest vertices along y go, with their faces. Medians over models (${[...new Set(marks.map(({ model }) => model))].join(', ')}) and keys, with quartiles; unread pixels count one half, the dashed line is guessing.`,
-    families: [{ title: '', xTitle: 'vertices cut off', steps: attacks.map((attack) => ({ label: share(attack), x: attack === 'none' ? '0' : percent(attack.split(':')[1]).replace(' ', ''), attack })) }],
+    families: [{ title: '', xTitle: 'vertices cut off', steps: attacks.map((attack) => ({ label: share(attack), x: attack === 'none' ? '0' : percent(attack.split(':')[1]), attack })) }],
     series: [...new Set(marks.map(nameOf))].sort().reverse(),  // robust first, as everywhere
     rowsOf: (name, { attack }) => marks.filter((mark) => nameOf(mark) === name).flatMap((mark) => context.rows.select({ ...mark, attack })),
   });

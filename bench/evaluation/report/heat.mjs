@@ -18,7 +18,7 @@ function survived(rows) {
 }
 
 function spec(cells, rows, columns) {
-  const place = { x: { field: 'column', type: 'nominal', sort: columns, title: null, axis: { orient: 'top', labelAngle: 0, ticks: false, domain: false, labelLimit: 110 } },
+  const place = { x: { field: 'column', type: 'nominal', sort: columns, title: null, axis: { orient: 'top', labelAngle: 0, ticks: false, domain: false, labelLimit: 300 } },
     y: { field: 'row', type: 'nominal', sort: rows, title: null, axis: { ticks: false, domain: false, labelLimit: 330 } } };
   return {
     width: { step: Math.max(88, 7.2 * Math.max(...columns.map((name) => name.length))) }, height: { step: 25 }, data: { values: cells }, encoding: place,

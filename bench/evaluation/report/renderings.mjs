@@ -9,7 +9,7 @@ function image(context, file, alt) {
   return `<img src="data:image/webp;base64,${readFileSync(join(context.folder, file)).toString('base64')}" alt="${escape(alt)}" width="512" height="512">`;
 }
 
-const markOf = ({ scheme, settings }) => `${scheme}, ${settings}`;
+const markOf = ({ scheme, settings }) => [scheme, settings].filter(Boolean).join(', ');
 const said = ({ most, mean }) => `pixels differ by ${most} of 255 at most, ${mean.toFixed(2)} on average`;
 
 function ofModel(context, model, list) {

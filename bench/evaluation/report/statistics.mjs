@@ -24,7 +24,7 @@ export function whyNothing(rows) {
   return notes.join('; ');
 }
 
-export const percent = (share) => `${Number((100 * share).toPrecision(3))} %`;
+export const percent = (share) => `${Number((100 * share).toPrecision(3))}\u00a0%`;
 
 /** "3.5 % (15)": the median and how many trials it is of; or why there is none. @param show  the median as text */
 export function entry(summary, rows, show = percent) {
