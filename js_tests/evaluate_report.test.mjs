@@ -27,8 +27,8 @@ function results(t) {
   const add = (scheme, settings, payload, attack, ...readings) => readings.forEach((reading, i) =>
     rows.add({ scheme, settings, payload, model: MODEL, seed: i + 1, attack, ...reading }));
   const read = (ber) => ({ outcome: ber === 0 ? 'exact' : 'lost', ber, unread: 0, claim: ber === 0 ? 1e-20 : 0.3 });
-  for (const settings of ['invisible', 'standard', 'strong']) add('robust', settings, 'id', 'mark', { ...mark, rms: settings === 'strong' ? 1e-3 : 1.5e-4 });
-  add('paper', 'L=2', 'id', 'mark', mark);
+  for (const settings of ['invisible', 'standard', 'strong']) add('robust', settings, 'id', 'mark', { ...mark, rms: { invisible: 5e-5, standard: 1.5e-4, strong: 1e-3 }[settings] });
+  for (const [i, settings] of ['L=2', 'L=3', 'L=4'].entries()) add('paper', settings, 'id', 'mark', { ...mark, rms: 1.5e-4 / (i + 1) });
   for (const strength of ['0.16', '0.04', '0.01']) add('cho-mean', `strength=${strength}`, 'id', 'mark', { outcome: 'refused', note: 'too few "vertices"' });
   add('robust', 'standard', 'id', 'liris-noise:0.001', read(0), read(0), read(0));
   add('robust', 'standard', 'id', 'liris-noise:0.003', read(0), read(0.5), read(0.5));
@@ -50,7 +50,7 @@ function results(t) {
 async function reportOf(t) {
   const context = results(t), file = join(context.folder, 'report.html');
   await writeReport(file, context);
-  return { file, html: readFileSync(file, 'utf8') };
+  return { file, html: readFileSync(file, 'utf8').replaceAll('\u00a0', ' ') };
 }
 
 const sectionOf = (html, id) => new RegExp(`<section id="${id}"[\\s\\S]*?</section>`).exec(html)[0];
@@ -59,7 +59,7 @@ const rowOf = (html, name) => new RegExp(`<tr><th scope="row">${name}</th>(.*?)<
 test('medians and quartiles are those of the values, and cells say how many there are or why there are none', () => {
   assert.deepEqual(summarize([4, 1, 3, 2]), { median: 2.5, low: 1.75, high: 3.25, trials: 4 });
   assert.equal(summarize([]), null);
-  assert.equal(entry(summarize([0.1, 0.2]), []), '15 % (2)');
+  assert.equal(entry(summarize([0.1, 0.2]), []), '15\u00a0% (2)');
   assert.equal(entry(null, []), 'not measured');
   assert.equal(entry(null, [{ outcome: 'failed', note: 'not installed' }, { outcome: 'failed', note: 'not installed' }]), 'failed: not installed');
 });
