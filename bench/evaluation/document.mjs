@@ -40,8 +40,30 @@ parentheses: the number of trials.
 ${tableOf(['where', 'ours', 'theirs'], losses.map(({ where, ours, theirs }) => [where, ours, theirs]))}`;
 }
 
+/** A table of rows that have no figures: one line for those that agree in some columns, with the first one's reason. */
+function reasonsTable(rows, columns) {
+  const lines = new Map();
+  for (const row of rows) {
+    const cells = columns.map((column) => row[column]), name = cells.join('\n');
+    if (!lines.has(name)) lines.set(name, { cells, times: 0, note: row.note ?? '' });
+    ++lines.get(name).times;
+  }
+  return tableOf([...columns, 'times', 'why (the first time)'],
+    [...lines.values()].map(({ cells, times, note }) => [...cells, times, note].map((cell) => String(cell).replaceAll('|', '\\|'))));
+}
+
+/** What has no figure in the tables above, and why. */
+function withoutFigures({ rows }) {
+  const refused = rows.select({ attack: 'mark', outcome: 'refused' }), failed = rows.select({ outcome: 'failed' });
+  const parts = [];
+  if (refused.length > 0) parts.push(`Nothing was written:\n\n${reasonsTable(refused, ['scheme', 'settings', 'payload', 'model'])}`);
+  if (failed.length > 0) parts.push(`The attack or tool failed:\n\n${reasonsTable(failed, ['attack', 'model'])}`);
+  return parts.join('\n\n') || 'Every marking was written, and every attack and tool did its work.';
+}
+
 /** @param context  as recordedContext() gives it */
 export function writeDocument(path, context) {
   const sections = experiments.map((experiment) => `## ${experiment.title}\n\n${experiment.document(context).trim()}\n`);
-  writeFileSync(path, [head(context), `## The schemes\n\n${schemesTable(context)}\n`, ...sections, `## Where we lose\n\n${conclusion(context)}\n`].join('\n'));
+  writeFileSync(path, [head(context), `## The schemes\n\n${schemesTable(context)}\n`, ...sections, `## What has no figures, and why\n\n${withoutFigures(context)}\n`,
+    `## Where we lose\n\n${conclusion(context)}\n`].join('\n'));
 }
