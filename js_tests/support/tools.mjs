@@ -71,9 +71,6 @@ const programs = {
   },
 };
 
-/** Whether a command line's program is one that runTool() knows. */
-export const isKnown = (commandLine) => commandLine.split(' ')[0] in programs;
-
 /** Why a command line cannot be run here, or null. */
 export function missing(commandLine) {
   const [name] = commandLine.split(' ');

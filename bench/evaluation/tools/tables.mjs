@@ -59,9 +59,12 @@ function trialsLine(context) {
   const rows = byLine(context).flatMap(([, list]) => list);
   const ours = rows.filter((row) => OURS.some((one) => one.scheme === row.scheme)), peers = rows.filter((row) => !ours.includes(row));
   const models = (list) => unique(list.map((row) => row.model)).sort().join(', ');
-  const keys = (list) => unique(list.map((row) => row.seed)).length;
-  const other = peers.length === 0 ? '' : ` Peers: ${unique(peers.map((row) => `\`${row.scheme}\``)).join(', ')} on ${models(peers)}, up to ${keys(peers)} key${keys(peers) === 1 ? '' : 's'}.`;
-  return `64-bit IDs in ${models(ours)}, up to ${keys(ours)} key${keys(ours) === 1 ? '' : 's'} each.${other}`;
+  const keys = (list) => {
+    const number = unique(list.map((row) => row.seed)).length;
+    return number === 1 ? 'one key each' : `up to ${number} keys each`;
+  };
+  const other = peers.length === 0 ? '' : ` Peers (${unique(peers.map((row) => `\`${row.scheme}\``)).join(', ')}): ${models(peers)}, ${keys(peers)}.`;
+  return `64-bit IDs, each scheme at its usual strength, in ${models(ours)}, ${keys(ours)}.${other}`;
 }
 
 /** The table of README.md, of a recordedContext(). */
@@ -127,7 +130,7 @@ right; "+ n": so many more are recognised by comparing with the expected ID (tai
 how many distinct positions are left, and the grid they lie on; a tool that did not do what its command line says is a failure of the
 tool. "Object of 1/20 of its scene": beside an object whose box is 20 times as large, of the same material, so that
 tools join the two. draco_encoder reads a PLY of the same positions; OBJ and STL come back as a GLB by the program that wrote them.
-${trialsLine(context)}
+${trialsLine(context)} How much each scheme moves is under "Distortion of every scheme".
 
 ${allSchemes(context)}
 

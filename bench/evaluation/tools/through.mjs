@@ -13,7 +13,7 @@ const isScene = (step) => step.startsWith('scene 1/');
 /** Why a command line cannot be run on this machine, or null. */
 export function notHere(line) {
   for (const step of stepsOf(line)) {
-    const reason = isScene(step) ? null : isThree(step) ? noChromium || null : missing(step);
+    const reason = isScene(step) ? null : isThree(step) ? noChromium && `not installed: ${noChromium}` : missing(step);
     if (reason) return reason;
   }
   return null;
@@ -24,6 +24,11 @@ export function openTools() {
   const endings = [];
   let opened = null;
   const three = () => (opened ??= openThree({ after: (end) => endings.push(end) }));  // most runs need no browser
+  const known = new WeakMap();  // one marked model goes through many tools
+  const describeOnce = (model) => {
+    if (!known.has(model)) known.set(model, describeModel(model));
+    return known.get(model);
+  };
   let turn = Promise.resolve();
   /** One call of the page at a time: it keeps one model's files and complaints. A browser that went away is opened again, once. */
   const written = (exporter, model) => {
@@ -52,13 +57,13 @@ export function openTools() {
           if (isScene(step)) {
             before = bytes = await besideLarge(bytes, Number(step.slice('scene 1/'.length)));
           } else if (isThree(step)) {
-            if (noChromium) throw new Error(noChromium);
+            if (notHere(step)) throw new Error(notHere(step));
             bytes = await written(step.slice('three '.length), bytes);
           } else {
             bytes = await runTool(step, bytes);
           }
         }
-        const was = await describeModel(before), made = await describeModel(bytes);
+        const was = await describeOnce(before), made = await describeModel(bytes);
         const wrong = disappointment(expects, made, was);
         return wrong ? { bytes: null, note: `${line}: ${wrong}` } : { bytes, note: describe(made, was) };
       } catch (error) {
