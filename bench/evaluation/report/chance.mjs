@@ -3,7 +3,7 @@
 import { atMost } from '../chance_rows.mjs';
 import { summaries } from '../experiments/chance.mjs';
 import { figure, htmlTable } from './figure.mjs';
-import { plot, seriesScales } from './plot.mjs';
+import { plot, powerLabel, seriesScales } from './plot.mjs';
 
 const EXPONENTS = Array.from({ length: 41 }, (_, i) => -i / 10);  // 1 .. 1e-4
 const SHOWN = [-0.3, -1, -2, -3, -4];
@@ -22,7 +22,7 @@ function spec(curves, series) {
   const points = curves.flatMap(({ words, bins, trials: all }) => EXPONENTS.map((exponent) =>
     ({ series: words, claimed: 10 ** exponent, observed: atMost(bins, exponent) / all, whole: Number.isInteger(exponent * 2) })));
   const decades = Array.from({ length: 1 - Math.round(Math.log10(least)) }, (_, i) => 10 ** -i);
-  const log = (field, title) => ({ field, type: 'quantitative', title, scale: { type: 'log', domain: [least, 1], clamp: true }, axis: { grid: true, format: '~e', values: decades } });
+  const log = (field, title) => ({ field, type: 'quantitative', title, scale: { type: 'log', domain: [least, 1], clamp: true }, axis: { grid: true, labelExpr: powerLabel, values: decades } });
   return {
     width: 250, height: 220, data: { values: points.filter(({ observed }) => observed > 0) },
     encoding: { x: log('claimed', 'claimed probability') },

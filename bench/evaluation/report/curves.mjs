@@ -19,7 +19,7 @@ export function curveSpec({ points, order, series, ordered = true, xTitle, y = E
   const offset = { field: 'series', scale: { domain: series } };
   const place = (field) => ({ field, type: 'quantitative', ...y });
   return {
-    width: Math.max(230, 50 * order.length), height: 190, data: { values: points },
+    width: Math.max(230, (ordered ? 50 : 68) * order.length), height: 190, data: { values: points },
     encoding: { x, xOffset: offset, color },
     layer: [
       ...(rule ? [{ mark: { type: 'rule', strokeDash: [3, 3], color: 'var(--faint)' }, data: { values: [{}] }, encoding: { x: null, xOffset: null, color: null, y: { datum: rule } } }] : []),

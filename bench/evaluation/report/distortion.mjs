@@ -3,7 +3,7 @@
 import { wasMeasured } from '../models.mjs';
 import { marks, models } from '../experiments/distortion.mjs';
 import { figure, htmlTable } from './figure.mjs';
-import { plot, seriesScales } from './plot.mjs';
+import { plot, powerLabel, seriesScales } from './plot.mjs';
 import { entry, summarizeColumn } from './statistics.mjs';
 
 const MEASURES = [
@@ -11,7 +11,7 @@ const MEASURES = [
   ['hausdorff', 'Hausdorff distance, of the diagonal', (x) => x.toExponential(1), '~e', 'log'],
   ['max', 'largest move, of the diagonal', (x) => x.toExponential(1), '~e', 'log'],
   ['snr', 'SNR, dB', (x) => x.toFixed(1), 'd', 'linear'],
-  ['normals', 'normals turned, degrees', (x) => x.toFixed(2), '~g', 'log'],
+  ['normals', 'normals turned, degrees', (x) => x.toFixed(2), '~e', 'log'],
   ['msdm2', 'MSDM2', (x) => x.toFixed(3), '~g', 'linear'],
 ];
 const nameOf = ({ scheme, settings }) => (scheme === 'robust' ? `robust ${settings}` : scheme);
@@ -21,7 +21,7 @@ function spec(points, order, series, title, format, scale) {
   return {
     width: 240, height: { step: 24 }, data: { values: points },
     encoding: {
-      x: { field: 'median', type: 'quantitative', title, scale: { type: scale, ...(scale === 'linear' ? { zero: false } : {}), nice: false, padding: 10 }, axis: { grid: true, format, tickCount: 4 } },
+      x: { field: 'median', type: 'quantitative', title, scale: { type: scale, ...(scale === 'linear' ? { zero: false } : {}), nice: false, padding: 10 }, axis: { grid: true, tickCount: 4, ...(scale === 'log' ? { labelExpr: powerLabel } : { format }) } },
       y: { field: 'name', type: 'nominal', sort: order, scale: { domain: order }, title: null, axis: { grid: true, ticks: false, domain: false } },
     },
     layer: [{ mark: 'point', encoding: { color, shape } }, { mark: { type: 'tick', color: 'var(--ink)', thickness: 2, height: 16 }, encoding: { x: { aggregate: 'median', field: 'median', title } } }],

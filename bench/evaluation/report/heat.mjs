@@ -17,15 +17,22 @@ function survived(rows) {
   return { text: `${exact}${match > 0 ? `+${match}` : ''} / ${trials.length}`, share: exact / trials.length, known: (exact + match) / trials.length, trials: trials.length };
 }
 
-function spec(cells, rows, columns) {
-  const place = { x: { field: 'column', type: 'nominal', sort: columns, title: null, axis: { orient: 'top', labelAngle: 0, ticks: false, domain: false, labelLimit: 300 } },
-    y: { field: 'row', type: 'nominal', sort: rows, title: null, axis: { ticks: false, domain: false, labelLimit: 330 } } };
+const GRADES = ['none', 'few', 'known', 'most', 'all', 'missing'];
+const byGrade = (colour) => ({ field: 'grade', type: 'nominal', legend: null, scale: { domain: GRADES, range: GRADES.map((grade) => `var(--${colour}-${grade})`) } });
+
+/** @param narrow  whether the names of the rows stand above them, for phones */
+function spec(cells, rows, columns, narrow) {
+  const columnAxis = { orient: 'top', labelAngle: 0, ticks: false, domain: false, labelLimit: 0, ...(narrow ? { labelExpr: "split(datum.label, ' ')" } : {}) };
+  const rowAxis = { ticks: false, domain: false, labelLimit: 0 };
+  const y = { field: 'row', type: 'nominal', sort: rows, title: null, axis: narrow ? null : rowAxis, scale: narrow ? { paddingInner: 0.48, paddingOuter: 0.5 } : {} };
+  const longest = Math.max(...columns.flatMap((name) => (narrow ? name.split(' ') : name)).map((word) => word.length));
   return {
-    width: { step: Math.max(88, 7.2 * Math.max(...columns.map((name) => name.length))) }, height: { step: 25 }, data: { values: cells }, encoding: place,
+    width: { step: narrow ? Math.max(60, 6.6 * longest) : Math.max(88, 7.2 * longest) }, height: { step: narrow ? 44 : 25 }, data: { values: cells },
+    encoding: { x: { field: 'column', type: 'nominal', sort: columns, title: null, axis: columnAxis }, y },
     layer: [
-      { mark: { type: 'rect', stroke: 'var(--card)', strokeWidth: 2 },
-        encoding: { fill: { field: 'grade', type: 'nominal', legend: null, scale: { domain: ['none', 'few', 'known', 'most', 'all', 'missing'], range: ['none', 'few', 'known', 'most', 'all', 'missing'].map((grade) => `var(--grade-${grade})`) } } } },
-      { mark: { type: 'text', fontSize: 12 }, encoding: { text: { field: 'shown' }, color: { field: 'grade', type: 'nominal', legend: null, scale: { domain: ['none', 'few', 'known', 'most', 'all', 'missing'], range: ['none', 'few', 'known', 'most', 'all', 'missing'].map((grade) => `var(--on-${grade})`) } } } },
+      { mark: { type: 'rect', stroke: 'var(--card)', strokeWidth: 2 }, encoding: { fill: byGrade('grade') } },
+      { mark: { type: 'text', fontSize: 12 }, encoding: { text: { field: 'shown' }, color: byGrade('on') } },
+      ...(narrow ? [{ data: { values: rows.map((row) => ({ row })) }, mark: { type: 'text', align: 'left', dy: -18, fontSize: 12, color: 'var(--ink)' }, encoding: { x: { value: 1 }, text: { field: 'row' } } }] : []),
     ],
     resolve: { scale: { color: 'independent' } },
   };
@@ -48,7 +55,8 @@ async function heatFigure({ title, caption, rows, columns, rowsOf }) {
   const key = '<ul class="legend grades"><li><i data-grade="all"></i>all read exactly</li><li><i data-grade="most"></i>half and more</li><li><i data-grade="known"></i>recognised, hardly read</li><li><i data-grade="few"></i>some</li><li><i data-grade="none"></i>none</li></ul>';
   return figure({
     title, caption, tables: [htmlTable([title, ...columns], rows.map((row) => [row, ...cells.filter((cell) => cell.row === row).map(({ text }) => text)]))],
-    panels: [{ title: '', wide: true, svg: `${key}<div class="scroll" tabindex="0">${await plot(spec(cells, rows, columns), `${title}: ${said}`)}</div>` }],
+    panels: [{ title: '', wide: true, svg: `${key}<div class="scroll wide" tabindex="0">${await plot(spec(cells, rows, columns, false), `${title}: ${said}`)}</div>
+<div class="scroll narrow" tabindex="0">${await plot(spec(cells, rows, columns, true), `${title}: ${said}`)}</div>` }],
   });
 }
 

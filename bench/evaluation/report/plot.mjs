@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Plots by Vega-Lite, as SVG that takes its colours from the page: light, dark and printed are one picture.
-import { parse, View } from 'vega';
+import { parse, textMetrics, View } from 'vega';
 import { compile } from 'vega-lite';
 
 export const escape = (value) => String(value).replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]);
@@ -8,6 +8,13 @@ export const escape = (value) => String(value).replace(/[&<>"]/g, (c) => ({ '&':
 /** Colours (of report.css) and shapes of up to nine series, in their order. */
 const COLOURS = Array.from({ length: 9 }, (_, i) => `var(--series-${i})`);
 const SHAPES = ['circle', 'square', 'triangle-up', 'diamond', 'cross', 'triangle-down', 'triangle-right', 'triangle-left', 'wedge'];
+
+// Without a canvas Vega takes letters for much wider than those of a page are, and leaves room for them.
+const WIDTH_OF_LETTER = 0.56;  // of the size of the type, digits and lower case of sans serifs
+textMetrics.width = (item, words) => WIDTH_OF_LETTER * item.fontSize * String(words ?? item.text ?? '').length;
+
+/** Labels of a logarithmic axis, as a Vega expression. */
+export const powerLabel = "datum.value === 1 ? '1' : format(datum.value, '~e')";
 
 /** Scales that give each series the same look in all plots. */
 export const seriesScales = (series) => ({
