@@ -119,8 +119,8 @@ async function measureAll() {
   if (rows.added > 0 || !existsSync(machineFile(folder))) {
     // Programs of experiments that were not chosen now keep their versions.
     const earlier = existsSync(machineFile(folder)) ? JSON.parse(readFileSync(machineFile(folder), 'utf8')).tools : {};
-    const tools = Object.assign(earlier, ...(await Promise.all(chosen.map((experiment) => experiment.tools?.(context) ?? {}))));
-    writeFileSync(machineFile(folder), `${JSON.stringify({ ...machine, tools }, null, 2)}\n`);
+    const asked = interrupt.signal.aborted ? [] : await Promise.all(chosen.map((experiment) => experiment.tools?.(context) ?? {}));
+    writeFileSync(machineFile(folder), `${JSON.stringify({ ...machine, tools: Object.assign(earlier, ...asked) }, null, 2)}\n`);
   }
   console.log(`${rows.added} rows measured, ${rows.select().length} in ${rowsFile(folder)}`);
   for (const error of errors) console.error(`not measured: ${error}`);
@@ -131,5 +131,8 @@ if (!options.document) process.exitCode = await measureAll();
 const recorded = recordedContext(folder, { quick: options.quick }), reportFile = join(folder, 'report.html');
 writeDocument(documentFile, recorded);
 if (isPublished) replaceTable(join(repository, 'README.md'), 'tools', shortTable(recorded));
-await writeReport(reportFile, recorded);
-console.log(`${documentFile}\n${reportFile}`);
+console.log(documentFile);
+if (!interrupt.signal.aborted) {  // who waits for the end of an interrupted run wants it now
+  await writeReport(reportFile, recorded);
+  console.log(reportFile);
+}
