@@ -57,7 +57,7 @@ export async function openThree(t) {
     const file = files.get(decodeURIComponent(new URL(route.request().url()).pathname));
     return route.fulfill(file ?? { status: 404 });
   });
-  await page.goto(`${origin}/`);
+  await page.goto(`${origin}/`, { timeout: 120_000 });  // it starts WebGL by software, which takes its time on a busy machine
   await page.waitForFunction(() => window.three !== undefined);
 
   let folders = 0;

@@ -23,7 +23,11 @@ export function notHere(line) {
 export function openTools() {
   const endings = [];
   let opened = null;
-  const three = () => (opened ??= openThree({ after: (end) => endings.push(end) }));  // most runs need no browser
+  // Opened by the first line that wants it, and by the next one where that failed.
+  const three = () => (opened ??= openThree({ after: (end) => endings.push(end) }).catch((error) => {
+    opened = null;
+    throw error;
+  }));
   const known = new WeakMap();  // one marked model goes through many tools
   const describeOnce = (model) => {
     if (!known.has(model)) known.set(model, describeModel(model));
@@ -49,8 +53,10 @@ export function openTools() {
     /**
      * @param tool  of TOOL_LINES
      * @return { bytes, note }: the file that the last step wrote, and what it made; where it failed { bytes: null, note }
+     * @throws Error where a browser is wanted that does not open: that says nothing of the tool
      */
     async through({ line, expects }, glb) {
+      if (stepsOf(line).some(isThree) && notHere(line) === null) await three();
       try {
         let bytes = glb, before = glb;
         for (const step of stepsOf(line)) {
