@@ -5,7 +5,7 @@ import { decodeDraco } from '../../../js_tests/support/draco.mjs';
 import { isGlb, openGltf } from '../../../js_tests/support/gltf.mjs';
 import { readDocument } from '../../../js_tests/support/gltf_readers.mjs';
 
-const FLOAT_BITS = 20;  // a grid as fine as this is no grid but float32
+const FLOAT_BITS = 20;  // finer than this is float32; six decimals of a small model are a grid of 18 bits
 
 /** The positions of a PLY that our laboratory wrote. */
 function positionsOfPly(ply) {
