@@ -5,7 +5,7 @@ import { tableOf } from '../support/table.mjs';
 import { experiments } from './experiments.mjs';
 
 function head({ machine, rows, quick }) {
-  const versions = (of) => Object.entries(of).filter(([, version]) => version).map(([name, version]) => `${name} ${version}`).join(', ');
+  const versions = (of) => Object.entries(of).map(([name, version]) => `${name} ${version}`).join(', ');
   return `# Evaluation
 
 Made by \`bench/evaluate${quick ? ' --quick' : ''}\` of ${rows.select().length} measured rows. How it is measured, and what the

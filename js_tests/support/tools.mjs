@@ -77,16 +77,14 @@ export function missing(commandLine) {
   return programs[name].find(name) ? null : `not installed: ${name} (${programs[name].setup} installs it)`;
 }
 
-/** The version that a command line's program says it has, or null where it is not installed. */
+/** The version that a command line's program, which is installed, says it has. */
 export async function toolVersion(commandLine) {
   const [name] = commandLine.split(' '), { find, versionOf: [ask, answer] } = programs[name];
-  const found = find(name);
-  if (!found) return null;
   if (ask === null) {
     const { status, stdout } = await run('dpkg-query', ['-W', '-f', '${Version}', answer]);
     return status === 0 ? stdout.toString().trim() : 'of unknown version';
   }
-  const [file, ...first] = found;
+  const [file, ...first] = find(name);
   return answer((await run(file, [...first, ...ask])).stdout.toString());
 }
 

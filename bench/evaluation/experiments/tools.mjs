@@ -63,7 +63,7 @@ export async function run(context) {
   return errors;
 }
 
-/** { program: version }, null for those that are not here. */
+/** { program: version } of those that are here. */
 export async function tools(context) {
   const programs = openTools();
   try {

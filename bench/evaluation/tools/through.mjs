@@ -77,14 +77,12 @@ export function openTools() {
       }
     },
 
-    /** { program: version } of the programs of these lines, as they say themselves; null for those that are not here. */
+    /** { program: version } of the programs of these lines that are here, as they say themselves. */
     async versions(tools) {
-      const steps = tools.flatMap(({ line }) => stepsOf(line)).filter((step) => !isScene(step));
+      const steps = tools.flatMap(({ line }) => stepsOf(line)).filter((step) => !isScene(step) && notHere(step) === null);
       const byProgram = new Map(steps.map((step) => [step.split(' ')[0], step]));
-      const asked = [...byProgram].map(async ([program, step]) => {
-        if (!isThree(step)) return [program, await toolVersion(step)];
-        return [program, noChromium ? null : `r${await (await three()).version()}`];
-      });
+      const asked = [...byProgram].map(async ([program, step]) =>
+        [program, isThree(step) ? `r${await (await three()).version()}` : await toolVersion(step)]);
       return Object.fromEntries(await Promise.all(asked));
     },
 
