@@ -17,10 +17,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "keyed_bits.h"
-#include "peer_mesh.h"
 #include "quadmark/vec3.h"
-#include "settings.h"
+#include "welded_peer.h"
 
 namespace quadmark::bench {
 namespace {
@@ -57,24 +55,21 @@ struct NormBins {
   }
 };
 
-class Cho final : public Peer {
+class Cho final : public WeldedPeer {
  public:
   explicit Cho(Statistic statistic) : statistic_(statistic) {}
 
   std::string name() const override { return statistic_ == Statistic::mean ? "cho-mean" : "cho-variance"; }
-  std::string usualSettings() const override { return usualText(settings()); }
   PeerInfo info() const override;
 
-  Result<TrialMark> mark(const Mesh& mesh, const TrialPayload& payload, std::uint64_t key,
-                         const std::string& text) const override;
-  TrialReading read(const Mesh& mesh, const TrialPayload& payload, std::uint64_t key,
-                    const std::string& text) const override;
-
- private:
-  std::vector<Setting> settings() const {
+ protected:
+  std::vector<Setting> settings() const override {
     return {{"strength", statistic_ == Statistic::mean ? 0.04 : 0.06, 0.001, 0.3}};
   }
+  void write(const Work& work, const Bits& written, std::vector<double>& moved, TrialMark& mark) const override;
+  void vote(const Work& work, BitVotes& votes) const override;
 
+ private:
   // The statistic of a bin less its value for a uniform distribution, its norms bent by a power.
   double excess(const NormBins& bins, std::size_t bin, double power) const {
     double sum = 0;
@@ -125,21 +120,14 @@ PeerInfo Cho::info() const {
           "mean distance and 10-bit quantization, about 0.5 under affine maps and cropping"};
 }
 
-Result<TrialMark> Cho::mark(const Mesh& mesh, const TrialPayload& payload, std::uint64_t key,
-                            const std::string& text) const {
-  const auto values = settingValues(text, settings());
-  if (!values) return values.error();
-  const WeldedMesh welded = weld(mesh);
-  if (const Status ok = checkMarkable(mesh, welded, payload); !ok) return ok.error();
-  const KeyedBits bits(key, name(), payload.bits.size());
-  std::vector<double> moved = welded.positions;
+void Cho::write(const Work& work, const Bits& written, std::vector<double>& moved, TrialMark& mark) const {
+  mark.carriers = work.bits.count();
   for (int round = 0; round < kRounds; ++round) {
-    const NormBins bins(moved, bits.count());
+    const NormBins bins(moved, work.bits.count());
     bool changed = false;
-    for (std::size_t bin = 0; bin < bits.count(); ++bin) {
+    for (std::size_t bin = 0; bin < bins.members.size(); ++bin) {
       if (bins.members[bin].empty()) continue;
-      const std::size_t bit = bits.bitAt(bin);
-      const double power = powerFor(bins, bin, bits.padded(bit, payload.bits[bit]), (*values)[0]);
+      const double power = powerFor(bins, bin, written[work.bits.bitAt(bin)] != 0, work.values[0]);
       if (power == 1) continue;
       changed = true;
       for (const std::uint32_t v : bins.members[bin]) {
@@ -148,24 +136,15 @@ Result<TrialMark> Cho::mark(const Mesh& mesh, const TrialPayload& payload, std::
         if (length(from) > 0) put(moved, v, bins.centre + (norm / length(from)) * from);
       }
     }
-    if (!changed) break;
+    if (!changed) return;
   }
-  TrialMark out;
-  out.positions = unwelded(mesh, welded, moved);
-  out.carriers = bits.count();
-  return readableMark(*this, mesh, payload, key, text, std::move(out));
 }
 
-TrialReading Cho::read(const Mesh& mesh, const TrialPayload& payload, std::uint64_t key,
-                       const std::string& text) const {
-  if (bitCount(payload) == 0 || !settingValues(text, settings())) return {};
-  const KeyedBits bits(key, name(), bitCount(payload));
-  const NormBins bins(weld(mesh).positions, bits.count());
-  BitVotes votes(bits);
-  for (std::size_t bin = 0; bin < bits.count(); ++bin) {
+void Cho::vote(const Work& work, BitVotes& votes) const {
+  const NormBins bins(work.welded.positions, work.bits.count());
+  for (std::size_t bin = 0; bin < bins.members.size(); ++bin) {
     if (!bins.members[bin].empty()) votes.add(bin, excess(bins, bin, 1));
   }
-  return votes.reading();
 }
 
 }  // namespace

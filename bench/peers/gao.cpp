@@ -23,12 +23,10 @@
 #include <cmath>
 #include <optional>
 
-#include "keyed_bits.h"
-#include "peer_mesh.h"
 #include "qim.h"
 #include "quadmark/vec3.h"
-#include "settings.h"
 #include "triangles.h"
+#include "welded_peer.h"
 
 namespace quadmark::bench {
 namespace {
@@ -87,10 +85,9 @@ std::optional<Quadrilateral> quadrilateral(const std::vector<double>& positions,
   return out;
 }
 
-class Gao final : public Peer {
+class Gao final : public WeldedPeer {
  public:
   std::string name() const override { return "gao-similarity"; }
-  std::string usualSettings() const override { return usualText(settings()); }
   PeerInfo info() const override {
     return {"X. Gao, C. Zhang and others",
             "High-capacity watermarking by similarity-transformation invariants of four-point sets",
@@ -104,60 +101,43 @@ class Gao final : public Peer {
             "distortion is linear in the strength; high capacity"};
   }
 
-  Result<TrialMark> mark(const Mesh& mesh, const TrialPayload& payload, std::uint64_t key,
-                         const std::string& text) const override {
-    const auto values = settingValues(text, settings());
-    if (!values) return values.error();
-    const WeldedMesh welded = weld(mesh);
-    if (const Status ok = checkMarkable(mesh, welded, payload); !ok) return ok.error();
-    const KeyedBits bits(key, name(), payload.bits.size());
-    const std::vector<FourPoints> sets = fourPointSets(Triangles(mesh, welded), welded);
-    TrialMark out;
-    std::vector<double> moved = welded.positions;
+ protected:
+  std::vector<Setting> settings() const override { return {{"strength", 0.03, 1e-5, 0.2}}; }
+
+  void write(const Work& work, const Bits& written, std::vector<double>& moved, TrialMark& mark) const override {
+    const std::vector<FourPoints> sets = fourPointSets(Triangles(work.mesh, work.welded), work.welded);
+    const auto one = [&](std::uint64_t carrier) { return written[work.bits.bitAt(carrier)] != 0; };
     for (std::size_t i = 0; i < sets.size(); ++i) {
       const auto quad = quadrilateral(moved, sets[i]);
       if (!quad || !quad->ab.usable() || !quad->cd.usable()) continue;
-      const Diagonal ab = written(quad->ab, 2 * i, bits, payload, (*values)[0]);
-      const Diagonal cd = written(quad->cd, 2 * i + 1, bits, payload, (*values)[0]);
+      const Diagonal ab = withRatio(quad->ab, one(2 * i), work.values[0]);
+      const Diagonal cd = withRatio(quad->cd, one(2 * i + 1), work.values[0]);
       put(moved, sets[i].a, ab.from);
       put(moved, sets[i].b, ab.to);
       put(moved, sets[i].c, cd.from);
       put(moved, sets[i].d, cd.to + quad->height);
-      out.carriers += 2;
+      mark.carriers += 2;
     }
-    out.capacityBits = out.carriers;
-    out.positions = unwelded(mesh, welded, moved);
-    return readableMark(*this, mesh, payload, key, text, std::move(out));
+    mark.capacityBits = mark.carriers;
   }
 
-  TrialReading read(const Mesh& mesh, const TrialPayload& payload, std::uint64_t key,
-                    const std::string& text) const override {
-    const auto values = settingValues(text, settings());
-    if (bitCount(payload) == 0 || !values) return {};
-    const WeldedMesh welded = weld(mesh);
-    const KeyedBits bits(key, name(), bitCount(payload));
-    const std::vector<FourPoints> sets = fourPointSets(Triangles(mesh, welded), welded);
-    const double diagonal = boundingDiagonal(mesh), step = (*values)[0];
-    BitVotes votes(bits);
+  void vote(const Work& work, BitVotes& votes) const override {
+    const std::vector<FourPoints> sets = fourPointSets(Triangles(work.mesh, work.welded), work.welded);
+    const double diagonal = boundingDiagonal(work.mesh), step = work.values[0];
     for (std::size_t i = 0; i < sets.size(); ++i) {
-      const auto quad = quadrilateral(welded.positions, sets[i]);
+      const auto quad = quadrilateral(work.welded.positions, sets[i]);
       if (!quad || !quad->ab.usable() || !quad->cd.usable()) continue;
       std::uint64_t carrier = 2 * i;
       for (const Diagonal& d : {quad->ab, quad->cd})
         votes.add(carrier++, lengthWeight(step * length(d.to - d.from), diagonal) * qimVote(d.ratio, step));
     }
-    return votes.reading();
   }
 
  private:
-  static std::vector<Setting> settings() { return {{"strength", 0.03, 1e-5, 0.2}}; }
-
-  // The diagonal with the ratio of its bit; its nearer end has moved.
-  static Diagonal written(const Diagonal& diagonal, std::uint64_t carrier, const KeyedBits& bits,
-                          const TrialPayload& payload, double step) {
-    const std::size_t bit = bits.bitAt(carrier);
+  // The diagonal with a ratio of this bit; its nearer end has moved.
+  static Diagonal withRatio(const Diagonal& diagonal, bool one, double step) {
     const double from = std::ceil(kLowest / step), to = std::floor(kHighest / step) - 1;
-    const double ratio = qimNearest(diagonal.ratio, step, bits.padded(bit, payload.bits[bit]), from, to);
+    const double ratio = qimNearest(diagonal.ratio, step, one, from, to);
     const Vec3 crossing = diagonal.from + diagonal.ratio * (diagonal.to - diagonal.from);
     Diagonal out = diagonal;
     if (diagonal.ratio < 0.5) {

@@ -19,10 +19,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "keyed_bits.h"
 #include "peer_mesh.h"
 #include "qim.h"
-#include "settings.h"
+#include "welded_peer.h"
 
 namespace quadmark::bench {
 namespace {
@@ -80,10 +79,9 @@ Ends clearestEnds(const std::vector<Inside>& inside, double room, double step, c
   return best;
 }
 
-class IndexQim final : public Peer {
+class IndexQim final : public WeldedPeer {
  public:
   std::string name() const override { return "index-qim"; }
-  std::string usualSettings() const override { return usualText(settings()); }
   PeerInfo info() const override {
     return {"B. Chen, G. W. Wornell",
             "Quantization index modulation (of coordinates, in file order)",
@@ -96,56 +94,40 @@ class IndexQim final : public Peer {
             "exact while errors stay below a quarter of the step and the order of vertices is kept; lost after reordering"};
   }
 
-  Result<TrialMark> mark(const Mesh& mesh, const TrialPayload& payload, std::uint64_t key,
-                         const std::string& text) const override {
-    const auto values = settingValues(text, settings());
-    if (!values) return values.error();
-    const WeldedMesh welded = weld(mesh);
-    if (const Status ok = checkMarkable(mesh, welded, payload); !ok) return ok.error();
-    const KeyedBits bits(key, name(), payload.bits.size() + kPilots);
-    Bits written = payload.bits;
-    written.resize(bits.count(), 0);
-    const std::vector<std::uint32_t> first = firstTwins(welded);
-    const Box box(welded.positions);
-    const double step = (*values)[0] * box.side;
-    TrialMark out;
-    std::vector<double> moved = welded.positions;
+ protected:
+  std::vector<Setting> settings() const override { return {{"strength", 2.5e-4, 1e-6, 0.05}}; }
+  std::size_t pilots() const override { return kPilots; }
+
+  void write(const Work& work, const Bits& written, std::vector<double>& moved, TrialMark& mark) const override {
+    const std::vector<std::uint32_t> first = firstTwins(work.welded);
+    const Box box(moved);
+    const double step = work.values[0] * box.side;
     for (std::size_t i = 0; i < moved.size(); ++i) {
-      const std::size_t axis = i % 3, bit = bits.bitAt(first[i / 3]);
+      const std::size_t axis = i % 3;
       const double room = box.high[axis] - box.low[axis], cells = std::floor(room / step);
       if (moved[i] == box.low[axis] || moved[i] == box.high[axis] || cells < 2) continue;
-      moved[i] = box.low[axis] + qimNearest(moved[i] - box.low[axis], step, bits.padded(bit, written[bit]), 0, cells - 1);
-      ++out.carriers;
+      const bool one = written[work.bits.bitAt(first[i / 3])] != 0;
+      moved[i] = box.low[axis] + qimNearest(moved[i] - box.low[axis], step, one, 0, cells - 1);
+      ++mark.carriers;
     }
-    out.positions = unwelded(mesh, welded, moved);
-    return readableMark(*this, mesh, payload, key, text, std::move(out));
   }
 
-  TrialReading read(const Mesh& mesh, const TrialPayload& payload, std::uint64_t key,
-                    const std::string& text) const override {
-    const auto values = settingValues(text, settings());
-    if (bitCount(payload) == 0 || !values) return {};
-    const WeldedMesh welded = weld(mesh);
-    const KeyedBits bits(key, name(), bitCount(payload) + kPilots);
-    const std::vector<std::uint32_t> first = firstTwins(welded);
-    const Box box(welded.positions);
-    if (!(box.side > 0)) return {};
-    const double step = (*values)[0] * box.side;
-    BitVotes votes(bits);
+  void vote(const Work& work, BitVotes& votes) const override {
+    const std::vector<double>& positions = work.welded.positions;
+    const std::vector<std::uint32_t> first = firstTwins(work.welded);
+    const Box box(positions);
+    if (!(box.side > 0)) return;
+    const double step = work.values[0] * box.side;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::vector<Inside> inside;
       for (std::size_t w = 0; w < first.size(); ++w) {
-        const double x = welded.positions[3 * w + axis];
+        const double x = positions[3 * w + axis];
         if (x > box.low[axis] && x < box.high[axis]) inside.push_back({first[w], x - box.low[axis]});
       }
-      const Ends ends = clearestEnds(inside, box.high[axis] - box.low[axis], step, bits);
+      const Ends ends = clearestEnds(inside, box.high[axis] - box.low[axis], step, work.bits);
       for (const Inside& c : inside) votes.add(c.vertex, qimVote(ends.low + ends.scale * c.x, step));
     }
-    return votes.reading(bitCount(payload));
   }
-
- private:
-  static std::vector<Setting> settings() { return {{"strength", 2.5e-4, 1e-6, 0.05}}; }
 };
 
 }  // namespace

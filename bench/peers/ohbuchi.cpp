@@ -24,13 +24,11 @@
 #include <queue>
 #include <tuple>
 
-#include "keyed_bits.h"
 #include "patches.h"
-#include "peer_mesh.h"
 #include "qim.h"
 #include "quadmark/vec3.h"
-#include "settings.h"
 #include "triangles.h"
+#include "welded_peer.h"
 
 namespace quadmark::bench {
 namespace {
@@ -121,10 +119,9 @@ class Grower {
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> reached_;
 };
 
-class Ohbuchi final : public Peer {
+class Ohbuchi final : public WeldedPeer {
  public:
   std::string name() const override { return "ohbuchi-tvr"; }
-  std::string usualSettings() const override { return usualText(settings()); }
   PeerInfo info() const override {
     return {"R. Ohbuchi, H. Masuda, M. Aono",
             "Watermarking three-dimensional polygonal models (tetrahedral volume ratio)",
@@ -139,41 +136,27 @@ class Ohbuchi final : public Peer {
             "the connectivity has changed"};
   }
 
-  Result<TrialMark> mark(const Mesh& mesh, const TrialPayload& payload, std::uint64_t key,
-                         const std::string& text) const override {
-    const auto values = settingValues(text, settings());
-    if (!values) return values.error();
-    const WeldedMesh welded = weld(mesh);
-    if (const Status ok = checkMarkable(mesh, welded, payload); !ok) return ok.error();
-    const KeyedBits bits(key, name(), payload.bits.size());
-    TrialMark out;
-    std::vector<double> moved = welded.positions;
-    visit(mesh, welded, moved, (*values)[0], [&](const Tetrahedron& t, const Slot& slot) {
-      const std::size_t bit = bits.bitAt(t.carrier);
-      const double wanted = qimNearest(std::abs(slot.volume), slot.step, bits.padded(bit, payload.bits[bit]), 0);
+ protected:
+  std::vector<Setting> settings() const override { return {{"strength", 0.05, 1e-4, 10}}; }
+
+  void write(const Work& work, const Bits& written, std::vector<double>& moved, TrialMark& mark) const override {
+    visit(work, moved, [&](const Tetrahedron& t, const Slot& slot) {
+      const bool one = written[work.bits.bitAt(t.carrier)] != 0;
+      const double wanted = qimNearest(std::abs(slot.volume), slot.step, one, 0);
       const double move = (slot.volume < 0 ? -wanted : wanted) - slot.volume;
       const double area = length(slot.base);
       put(moved, t.vertex, at(moved, t.vertex) + (move / (area * area)) * slot.base);
-      ++out.carriers;
+      ++mark.carriers;
     });
-    out.capacityBits = out.carriers;
-    out.positions = unwelded(mesh, welded, moved);
-    return readableMark(*this, mesh, payload, key, text, std::move(out));
+    mark.capacityBits = mark.carriers;
   }
 
-  TrialReading read(const Mesh& mesh, const TrialPayload& payload, std::uint64_t key,
-                    const std::string& text) const override {
-    const auto values = settingValues(text, settings());
-    if (bitCount(payload) == 0 || !values) return {};
-    const WeldedMesh welded = weld(mesh);
-    const KeyedBits bits(key, name(), bitCount(payload));
-    const double diagonal = boundingDiagonal(mesh);
-    BitVotes votes(bits);
-    visit(mesh, welded, welded.positions, (*values)[0], [&](const Tetrahedron& t, const Slot& slot) {
+  void vote(const Work& work, BitVotes& votes) const override {
+    const double diagonal = boundingDiagonal(work.mesh);
+    visit(work, work.welded.positions, [&](const Tetrahedron& t, const Slot& slot) {
       const double weight = lengthWeight(slot.step / length(slot.base), diagonal);
       votes.add(t.carrier, weight * qimVote(std::abs(slot.volume), slot.step));
     });
-    return votes.reading();
   }
 
  private:
@@ -182,17 +165,14 @@ class Ohbuchi final : public Peer {
     double volume = 0, step = 0;  // both six times a volume
   };
 
-  static std::vector<Setting> settings() { return {{"strength", 0.05, 1e-4, 10}}; }
-
   // Calls use() for each tetrahedron that carries, in the order of writing; use() may move its vertex.
   template <class Use>
-  static void visit(const Mesh& mesh, const WeldedMesh& welded, const std::vector<double>& positions, double strength,
-                    const Use& use) {
-    const Triangles triangles(mesh, welded);
-    Grower grower(triangles, welded.vertexCount());
-    for (const Patch& patch : patchesOf(welded, kSpacing)) {
+  static void visit(const Work& work, const std::vector<double>& positions, const Use& use) {
+    const Triangles triangles(work.mesh, work.welded);
+    Grower grower(triangles, work.welded.vertexCount());
+    for (const Patch& patch : patchesOf(work.welded, kSpacing)) {
       const Tree tree = grower.grow(patch);
-      const double step = strength * tree.denominatorVolume(positions);
+      const double step = work.values[0] * tree.denominatorVolume(positions);
       if (!(step > 0)) continue;
       for (const Tetrahedron& t : tree.carriers) {
         const Slot slot{t.base(positions), t.volume(positions), step};
