@@ -69,7 +69,7 @@ TEST(Peers, ReadBackWhatTheyWrote) {
 }
 
 TEST(Peers, AreDeterministic) {
-  const Mesh mesh = lab::sculpture(4000);
+  const Mesh mesh = lab::sculpture(2000);
   for (const auto& first : bench::peers()) {
     SCOPED_TRACE(first->name());
     const PeerTrial a(*first, mesh), b(*first, mesh);
@@ -78,7 +78,7 @@ TEST(Peers, AreDeterministic) {
 }
 
 TEST(Peers, ReadNothingUnderAnotherKeyOrWithoutAMark) {
-  const Mesh mesh = lab::sculpture(8000);
+  const Mesh mesh = lab::sculpture(4000);
   const bench::TrialPayload payload = randomPayload(2, 24, 24);  // 576 bits: one standard deviation is 2 %
   for (const auto& peer : bench::peers()) {
     SCOPED_TRACE(peer->name());
@@ -89,7 +89,7 @@ TEST(Peers, ReadNothingUnderAnotherKeyOrWithoutAMark) {
 }
 
 TEST(Peers, MoveTwinsTogether) {
-  Mesh mesh = lab::sculpture(6000);
+  Mesh mesh = lab::sculpture(3000);
   // Every tenth face gets vertices of its own, as normals or texture coordinates make tools do.
   for (std::size_t corner = 0; corner < mesh.faceVertices.size(); corner += corner % 3 == 2 ? 28 : 1) {
     const std::uint32_t v = mesh.faceVertices[corner];

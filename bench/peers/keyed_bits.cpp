@@ -28,10 +28,18 @@ KeyedBits::KeyedBits(std::uint64_t key, std::string_view purpose, std::size_t co
 
 void BitVotes::add(std::uint64_t carrier, double weight) {
   if (weight == 0) return;
-  const std::size_t bit = bits_.bitAt(carrier);
+  const std::size_t bit = bits_->bitAt(carrier);
   unanimous_ = unanimous_ && sums_[bit] * weight >= 0;
   sums_[bit] += weight;
   heard_[bit] = 1;
+}
+
+void BitVotes::add(const BitVotes& other) {
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    unanimous_ = unanimous_ && other.unanimous_ && sums_[i] * other.sums_[i] >= 0;
+    sums_[i] += other.sums_[i];
+    heard_[i] |= other.heard_[i];
+  }
 }
 
 double BitVotes::clearness() const {
@@ -43,7 +51,7 @@ double BitVotes::clearness() const {
 double BitVotes::agreement(std::size_t first) const {
   double right = 0, all = 0;
   for (std::size_t i = first; i < sums_.size(); ++i) {
-    right += bits_.padded(i, 0) ? sums_[i] : -sums_[i];
+    right += bits_->padded(i, 0) ? sums_[i] : -sums_[i];
     all += std::abs(sums_[i]);
   }
   return all > 0 ? std::max(right / all, 0.0) : 0;
@@ -58,7 +66,7 @@ TrialReading BitVotes::reading(std::size_t count) const {
     if (heard_[i] == 0 || sums_[i] == 0) {
       out.unread[i] = 1;
     } else {
-      out.bits[i] = bits_.padded(i, sums_[i] > 0 ? 1 : 0) ? 1 : 0;
+      out.bits[i] = bits_->padded(i, sums_[i] > 0 ? 1 : 0) ? 1 : 0;
     }
   }
   return out;

@@ -33,10 +33,12 @@ class KeyedBits {
 /// Sums of votes per payload bit.
 class BitVotes {
  public:
-  explicit BitVotes(const KeyedBits& bits) : bits_(bits), sums_(bits.count(), 0), heard_(bits.count(), 0) {}
+  explicit BitVotes(const KeyedBits& bits) : bits_(&bits), sums_(bits.count(), 0), heard_(bits.count(), 0) {}
 
   /// @param weight  > 0 votes for a written 1, < 0 for a written 0, 0 for nothing.
   void add(std::uint64_t carrier, double weight);
+  /// All votes of another sum over the same bits.
+  void add(const BitVotes& other);
   /// How much the votes agree with each other: the sum over all bits of what is left after opposite votes.
   [[nodiscard]] double clearness() const;
   /// How much the bits from `first` on are 0 as written: 1 if every vote says so, 0 if half of them or fewer.
@@ -48,7 +50,7 @@ class BitVotes {
   [[nodiscard]] TrialReading reading() const { return reading(sums_.size()); }
 
  private:
-  const KeyedBits& bits_;
+  const KeyedBits* bits_;
   std::vector<double> sums_;
   Bits heard_;
   bool unanimous_ = true;

@@ -5,7 +5,7 @@ namespace quadmark::bench {
 
 std::vector<std::unique_ptr<Peer>> peers() {
   std::vector<std::unique_ptr<Peer>> out;
-  for (const auto make : {ohbuchiTvr, choMean, choVariance, gaoSimilarity, indexQim, lsbHmac}) out.push_back(make());
+  for (const auto make : {ohbuchiTvr, cayreSpectral, choMean, choVariance, gaoSimilarity, indexQim, lsbHmac}) out.push_back(make());
   return out;
 }
 

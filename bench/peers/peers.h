@@ -29,6 +29,7 @@ class Peer : public Scheme {
 
 // Each file names the paper, says where the paper leaves something open and what was decided.
 [[nodiscard]] std::unique_ptr<Peer> ohbuchiTvr();
+[[nodiscard]] std::unique_ptr<Peer> cayreSpectral();
 [[nodiscard]] std::unique_ptr<Peer> choMean();
 [[nodiscard]] std::unique_ptr<Peer> choVariance();
 [[nodiscard]] std::unique_ptr<Peer> gaoSimilarity();
