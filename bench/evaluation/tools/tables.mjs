@@ -81,9 +81,10 @@ Measured ${machine.date}. ${trialsLine(context)} "n of m": that many were read b
 without knowing the ID; "+ n": so many more are recognised when the expected ID is given (chance of a false alarm at most 1e-6).`;
 }
 
-/** What a tool made, of the rows' notes: mean share of the vertices that are left, and bits of its grid. */
+/** What a tool made of our marks, by the rows' notes: mean share of the vertices that are left, and bits of its grid. */
 function madeCells(list) {
-  const notes = readings(list).map((row) => /^(\d+) of (\d+) vertices(?:, (\d+) bits)?/.exec(row.note ?? '')).filter(Boolean);
+  const ours = list.filter((row) => row.scheme === OURS[0].scheme);  // some peers put models onto a grid themselves
+  const notes = readings(ours).map((row) => /^(\d+) of (\d+) vertices(?:, (\d+) bits)?/.exec(row.note ?? '')).filter(Boolean);
   if (notes.length === 0) return ['', ''];
   const left = notes.reduce((sum, [, after, before]) => sum + after / before, 0) / notes.length;
   const bits = unique(notes.map(([, , , digits]) => digits ?? 'float')).sort();
