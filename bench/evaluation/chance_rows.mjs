@@ -10,7 +10,7 @@ const order = new Intl.Collator('en', { numeric: true });
 
 export class ChanceRows {
   #path;
-  #cells = new Map();  // name -> { scheme, settings, kind, model, bins: Map(tenths -> { trials, matches }), note }
+  #cells = new Map(); // name -> { scheme, settings, kind, model, bins: Map(tenths -> { trials, matches }), note }
 
   constructor(path) {
     this.#path = path;
@@ -28,7 +28,8 @@ export class ChanceRows {
   }
 
   #add(cell, tenths, trials, matches) {
-    const { bins } = this.#cell(cell), bin = bins.get(tenths) ?? { trials: 0, matches: 0 };
+    const { bins } = this.#cell(cell),
+      bin = bins.get(tenths) ?? { trials: 0, matches: 0 };
     bins.set(tenths, { trials: bin.trials + trials, matches: bin.matches + matches });
   }
 
@@ -50,16 +51,25 @@ export class ChanceRows {
   /** All cells, ordered by name; `bins` by rising claim. */
   cells() {
     return [...this.#cells.values()]
-      .map((cell) => ({ ...cell, bins: [...cell.bins].map(([tenths, bin]) => ({ claim: -tenths / 10, ...bin })).sort((a, b) => a.claim - b.claim) }))
+      .map((cell) => ({
+        ...cell,
+        bins: [...cell.bins]
+          .map(([tenths, bin]) => ({ claim: -tenths / 10, ...bin }))
+          .sort((a, b) => a.claim - b.claim),
+      }))
       .sort((a, b) => order.compare(cellOf(a), cellOf(b)));
   }
 
   /** Writes the file anew. A run that is killed meanwhile leaves the old one. */
   save() {
-    const quoted = (text) => (/[",\r\n]/.test(text) ? `"${String(text).replaceAll('"', '""').replace(/\s+/g, ' ')}"` : text);
+    const quoted = (text) =>
+      /[",\r\n]/.test(text) ? `"${String(text).replaceAll('"', '""').replace(/\s+/g, ' ')}"` : text;
     const lines = this.cells().flatMap(({ bins, note, scheme, settings, kind, model }) =>
-      (note ? [['', 0, 0, note]] : bins.map(({ claim, trials, matches }) => [claim.toFixed(1), trials, matches, '']))
-        .map((rest) => [scheme, settings, kind, model, ...rest].map(quoted).join(',')));
+      (note
+        ? [['', 0, 0, note]]
+        : bins.map(({ claim, trials, matches }) => [claim.toFixed(1), trials, matches, ''])
+      ).map((rest) => [scheme, settings, kind, model, ...rest].map(quoted).join(',')),
+    );
     mkdirSync(dirname(this.#path), { recursive: true });
     writeFileSync(`${this.#path}.new`, `${[COLUMNS.join(','), ...lines].join('\n')}\n`);
     renameSync(`${this.#path}.new`, this.#path);
@@ -79,6 +89,7 @@ export function mergeBins(cells) {
 }
 
 /** How many trials of these bins claimed at most 10^exponent; the exponent has one decimal. */
-export const atMost = (bins, exponent) => bins.reduce((sum, bin) => sum + (bin.claim <= exponent + 1e-9 ? bin.trials : 0), 0);
+export const atMost = (bins, exponent) =>
+  bins.reduce((sum, bin) => sum + (bin.claim <= exponent + 1e-9 ? bin.trials : 0), 0);
 
 export const trialsOf = (bins) => atMost(bins, 0);

@@ -20,26 +20,50 @@ const LIRIS = [
   ['Simplification', /^simplify:/, share, 'vertices removed'],
   ['Cropping', /^crop:/, share, 'vertices cut off'],
 ];
-const OTHERS = { none: 'none', 'affine::R+affine::S': 'similar', reorder: 'order', 'affine::CB': 'affine', 'subdivide:1': 'subdivided' };
+const OTHERS = {
+  none: 'none',
+  'affine::R+affine::S': 'similar',
+  reorder: 'order',
+  'affine::CB': 'affine',
+  'subdivide:1': 'subdivided',
+};
 
 function families(context) {
   const all = liris.attacks(context);
   const known = LIRIS.map(([title, which, x, xTitle]) => ({
-    title, xTitle, steps: all.filter(({ attack }) => which.test(attack)).map(({ label, attack }) => ({ label, attack, x: x(attack) })),
+    title,
+    xTitle,
+    steps: all.filter(({ attack }) => which.test(attack)).map(({ label, attack }) => ({ label, attack, x: x(attack) })),
   }));
-  const others = all.filter(({ attack }) => attack in OTHERS).map(({ label, attack }) => ({ label, attack, x: OTHERS[attack] }));
-  return [...known, { title: 'Others', xTitle: null, ordered: false, steps: others }].filter((family) => family.steps.length > 0);
+  const others = all
+    .filter(({ attack }) => attack in OTHERS)
+    .map(({ label, attack }) => ({ label, attack, x: OTHERS[attack] }));
+  return [...known, { title: 'Others', xTitle: null, ordered: false, steps: others }].filter(
+    (family) => family.steps.length > 0,
+  );
 }
 
 export const lirisSection = async (context) => {
   const there = liris.models(context).filter((model) => wasMeasured(context, model));
-  const of = (limit) => curveFigure({
-    title: `${limit[0].toUpperCase()}${limit.slice(1)} limit: surface RMS of at most ${100 * liris.LIMITS[limit]} % of the diagonal`,
-    caption: `64-bit IDs in ${there.join(', ')}; of each scheme, model by model, the strongest settings within the limit. Points are medians over models and keys, bars reach from the lower to the upper quartile; the dashed line is guessing.`,
-    families: families(context),
-    series: context.schemes.map(({ name }) => name),
-    rowsOf: (name, { attack }) => there.flatMap((model) => liris.readings(context, context.schemes.find((one) => one.name === name), model, limit, attack)),
-  });
+  const of = (limit) =>
+    curveFigure({
+      title: `${limit[0].toUpperCase()}${limit.slice(1)} limit: surface RMS of at most ${100 * liris.LIMITS[limit]} % of the diagonal`,
+      caption: `64-bit IDs in ${there.join(', ')}; of each scheme, model by model, the strongest settings within the
+limit. Points are medians over models and keys, bars reach from the lower to the upper quartile; the dashed line is
+guessing.`,
+      families: families(context),
+      series: context.schemes.map(({ name }) => name),
+      rowsOf: (name, { attack }) =>
+        there.flatMap((model) =>
+          liris.readings(
+            context,
+            context.schemes.find((one) => one.name === name),
+            model,
+            limit,
+            attack,
+          ),
+        ),
+    });
   return (await Promise.all(Object.keys(liris.LIMITS).map(of))).join('\n');
 };
 
@@ -58,13 +82,23 @@ export function paperSection(context) {
   const rowsOf = (one, step) => {
     if (one in printed) return step.printed?.[printed[one]] === undefined ? [] : [{ ber: step.printed[printed[one]] }];
     return there.flatMap(({ model, settings }) =>
-      context.rows.select({ scheme: one, settings: one === 'paper' ? settings : undefined, payload: table2.payload, model, attack: step.attack }));
+      context.rows.select({
+        scheme: one,
+        settings: one === 'paper' ? settings : undefined,
+        payload: table2.payload,
+        model,
+        attack: step.attack,
+      }),
+    );
   };
   return curveFigure({
     title: 'The paper’s attacks on 24 x 24 pixels',
-    caption: `576 bits in ${there.map(({ model }) => model).join(', ')}: medians over models and keys with quartiles. What the paper prints of its own models is one figure each, and not of the same unit in the case of noise.`,
+    caption: `576 bits in ${there.map(({ model }) => model).join(', ')}: medians over models and keys with quartiles.
+What the paper prints of its own models is one figure each, and not of the same unit in the case of noise.`,
     families: PAPER.map(([title, { attacks }, which, x, xTitle]) => ({
-      title, xTitle, steps: attacks.filter(({ attack }) => which.test(attack)).map((one) => ({ ...one, x: x(one.attack) })),
+      title,
+      xTitle,
+      steps: attacks.filter(({ attack }) => which.test(attack)).map((one) => ({ ...one, x: x(one.attack) })),
     })),
     series: ['robust', 'paper', ...Object.keys(printed)],
     rowsOf,

@@ -19,31 +19,74 @@ const nameOf = ({ scheme, settings }) => (scheme === 'robust' ? `robust ${settin
 function spec(points, order, series, title, format, scale) {
   const { color, shape } = seriesScales(series);
   return {
-    width: 240, height: { step: 24 }, data: { values: points },
+    width: 240,
+    height: { step: 24 },
+    data: { values: points },
     encoding: {
-      x: { field: 'median', type: 'quantitative', title, scale: { type: scale, ...(scale === 'linear' ? { zero: false } : {}), nice: false, padding: 10 }, axis: { grid: true, tickCount: 4, ...(scale === 'log' ? { labelExpr: powerLabel } : { format }) } },
-      y: { field: 'name', type: 'nominal', sort: order, scale: { domain: order }, title: null, axis: { grid: true, ticks: false, domain: false } },
+      x: {
+        field: 'median',
+        type: 'quantitative',
+        title,
+        scale: { type: scale, ...(scale === 'linear' ? { zero: false } : {}), nice: false, padding: 10 },
+        axis: { grid: true, tickCount: 4, ...(scale === 'log' ? { labelExpr: powerLabel } : { format }) },
+      },
+      y: {
+        field: 'name',
+        type: 'nominal',
+        sort: order,
+        scale: { domain: order },
+        title: null,
+        axis: { grid: true, ticks: false, domain: false },
+      },
     },
-    layer: [{ mark: 'point', encoding: { color, shape } }, { mark: { type: 'tick', color: 'var(--ink)', thickness: 2, height: 16 }, encoding: { x: { aggregate: 'median', field: 'median', title } } }],
+    layer: [
+      { mark: 'point', encoding: { color, shape } },
+      {
+        mark: { type: 'tick', color: 'var(--ink)', thickness: 2, height: 16 },
+        encoding: { x: { aggregate: 'median', field: 'median', title } },
+      },
+    ],
   };
 }
 
 export async function distortionSection(context) {
-  const there = models(context).filter((model) => wasMeasured(context, model)), all = marks(context), order = all.map(nameOf);
-  const panels = [], tables = [];
+  const there = models(context).filter((model) => wasMeasured(context, model)),
+    all = marks(context),
+    order = all.map(nameOf);
+  const panels = [],
+    tables = [];
   for (const [column, title, show, format, scale] of MEASURES) {
-    const cells = all.map((mark) => there.map((model) => ({ mark, model, rows: context.rows.select({ ...mark, model, attack: 'mark' }) })));
+    const cells = all.map((mark) =>
+      there.map((model) => ({ mark, model, rows: context.rows.select({ ...mark, model, attack: 'mark' }) })),
+    );
     const points = cells.flat().flatMap(({ mark, model, rows }) => {
       const summary = summarizeColumn(rows, column);
-      return summary && (scale === 'linear' || summary.median > 0) ? [{ name: nameOf(mark), series: model, ...summary }] : [];
+      return summary && (scale === 'linear' || summary.median > 0)
+        ? [{ name: nameOf(mark), series: model, ...summary }]
+        : [];
     });
-    tables.push(htmlTable([title, ...there], cells.map((row, i) => [order[i], ...row.map(({ rows }) => entry(summarizeColumn(rows, column), rows, show))])));
+    tables.push(
+      htmlTable(
+        [title, ...there],
+        cells.map((row, i) => [order[i], ...row.map(({ rows }) => entry(summarizeColumn(rows, column), rows, show))]),
+      ),
+    );
     if (points.length === 0) continue;
-    panels.push({ title, svg: await plot(spec(points, order, there, null, format, scale),
-      `${title}: ${points.map((point) => `${point.name} on ${point.series}: ${show(point.median)}`).join('; ')}`) });
+    panels.push({
+      title,
+      svg: await plot(
+        spec(points, order, there, null, format, scale),
+        `${title}: ${points.map((point) => `${point.name} on ${point.series}: ${show(point.median)}`).join('; ')}`,
+      ),
+    });
   }
   return figure({
-    title: 'Schemes at their usual settings', series: there, panels, tables,
-    caption: '64-bit IDs. A point is a model (median over keys), the bar the median of the models. To the left there is less distortion, except for SNR.',
+    title: 'Schemes at their usual settings',
+    series: there,
+    panels,
+    tables,
+    caption:
+      `64-bit IDs. A point is a model (median over keys), the bar the median of the models. To the left there is less
+distortion, except for SNR.`,
   });
 }

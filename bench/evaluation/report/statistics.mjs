@@ -3,7 +3,8 @@
 
 /** The quantile of a sorted list, between its neighbours. */
 function quantile(sorted, share) {
-  const at = share * (sorted.length - 1), low = Math.floor(at);
+  const at = share * (sorted.length - 1),
+    low = Math.floor(at);
   return sorted[low] + (at - low) * ((sorted[low + 1] ?? sorted[low]) - sorted[low]);
 }
 
@@ -11,11 +12,17 @@ function quantile(sorted, share) {
 export function summarize(values) {
   if (values.length === 0) return null;
   const sorted = [...values].sort((a, b) => a - b);
-  return { median: quantile(sorted, 0.5), low: quantile(sorted, 0.25), high: quantile(sorted, 0.75), trials: sorted.length };
+  return {
+    median: quantile(sorted, 0.5),
+    low: quantile(sorted, 0.25),
+    high: quantile(sorted, 0.75),
+    trials: sorted.length,
+  };
 }
 
 /** Of a column of some rows. */
-export const summarizeColumn = (rows, column) => summarize(rows.map((row) => row[column]).filter((value) => value !== undefined));
+export const summarizeColumn = (rows, column) =>
+  summarize(rows.map((row) => row[column]).filter((value) => value !== undefined));
 
 /** Why rows have no value: "not measured", or what they say themselves. */
 export function whyNothing(rows) {
