@@ -8,15 +8,15 @@ import { after, test } from 'node:test';
 import { brotliCompressSync } from 'node:zlib';
 import { createKey, embed, extract } from 'quadmark';
 import { attack } from 'quadmark/lab';
-import { assertPicture, assertQuiet, drop, markedSculpture, onDisk, openPage, pageRoot, picture, screenshot, shown, startBrowser, waitFor } from './page_helpers.mjs';
+import { assertPicture, assertQuiet, drop, markedSculpture, onDisk, openPage, pageRoot, picture, screenshot, shown, startBrowsers, waitFor } from './page_helpers.mjs';
 import { realModel, repository } from './support/files.mjs';
 import { splitGlb } from './support/gltf.mjs';
 import { logo, logoPng } from './support/marks.mjs';
 
-const browser = await startBrowser(after);
+const { inEach, inChromium } = await startBrowsers(after);
 const { model, marked, key, image } = await markedSculpture();
 
-test('the page loads quietly, and nothing is asked of any other origin', async (t) => {
+inEach('the page loads quietly, and nothing is asked of any other origin', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   assert.equal(await page.title(), 'quadmark: is this model marked?');
   assert.equal(await page.locator('#check').isDisabled(), true);
@@ -24,7 +24,7 @@ test('the page loads quietly, and nothing is asked of any other origin', async (
   assertQuiet(seen, browser.url);
 });
 
-test('a first visit fetches at most 450 kB up to its verdict', async (t) => {
+inChromium('a first visit fetches at most 450 kB up to its verdict', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   await drop(page, onDisk(t, { 'sculpture.glb': marked, 'key.json': key }).paths);
   await waitFor(page, 'match');
@@ -36,7 +36,7 @@ test('a first visit fetches at most 450 kB up to its verdict', async (t) => {
   assert.ok(total <= 450e3, `${total} bytes`);
 });
 
-test('a marked GLB and its key, dropped together, give a match and the exact picture', async (t) => {
+inEach('a marked GLB and its key, dropped together, give a match and the exact picture', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const { paths } = onDisk(t, { 'sculpture.glb': marked, 'key.json': key });
   await drop(page, paths);
@@ -51,7 +51,7 @@ test('a marked GLB and its key, dropped together, give a match and the exact pic
   assertQuiet(seen, browser.url);
 });
 
-test('the verdict is spoken through the live region', async (t) => {
+inChromium('the verdict is spoken through the live region', async (t, browser) => {
   const { page } = await openPage(t, browser);
   const announcer = page.locator('#announcer');
   assert.equal(await announcer.getAttribute('aria-live'), 'polite');
@@ -62,7 +62,7 @@ test('the verdict is spoken through the live region', async (t) => {
   assert.match((await shown(page)).spokenOdds, /^1 in 10 to the power of \d+$/);
 });
 
-test('a reference picture is shown and compared', async (t) => {
+inEach('a reference picture is shown and compared', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const { paths } = onDisk(t, { 'sculpture.glb': marked, 'key.json': key, 'logo.png': logoPng(image) });
   await drop(page, paths);
@@ -77,7 +77,7 @@ test('a reference picture is shown and compared', async (t) => {
   assertQuiet(seen, browser.url);
 });
 
-test('files may come one by one, in any order', async (t) => {
+inChromium('files may come one by one, in any order', async (t, browser) => {
   const { page } = await openPage(t, browser);
   const { paths: [glb, json] } = onDisk(t, { 'sculpture.glb': marked, 'key.json': key });
   await drop(page, [json]);
@@ -88,7 +88,7 @@ test('files may come one by one, in any order', async (t) => {
   await assertPicture(page, image);
 });
 
-test('a marked PLY gives a match and the exact picture', async (t) => {
+inChromium('a marked PLY gives a match and the exact picture', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const ply = await markedSculpture({ format: 'ply' });
   await drop(page, onDisk(t, { 'sculpture.ply': ply.marked, 'my key.json': ply.key }).paths);
@@ -97,7 +97,7 @@ test('a marked PLY gives a match and the exact picture', async (t) => {
   assertQuiet(seen, browser.url);
 });
 
-test('a marked glTF is read with its .bin, dropped as files or as their folder', async (t) => {
+inEach('a marked glTF is read with its .bin, dropped as files or as their folder', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const { gltf, bin } = splitGlb(marked, 'mesh%20data.bin');
   const loose = onDisk(t, { 'scene.gltf': gltf, 'mesh data.bin': bin, 'key.json': key });
@@ -116,7 +116,7 @@ test('a marked glTF is read with its .bin, dropped as files or as their folder',
   assertQuiet(seen, browser.url);
 });
 
-test('textures of a glTF are not taken for the reference', async (t) => {
+inChromium('textures of a glTF are not taken for the reference', async (t, browser) => {
   const { page } = await openPage(t, browser);
   const { gltf, bin } = splitGlb(marked, 'data.bin');
   const json = JSON.parse(gltf);
@@ -126,7 +126,7 @@ test('textures of a glTF are not taken for the reference', async (t) => {
   assert.equal(await page.locator('#reference-figure').isVisible(), false);
 });
 
-test('a damaged model still matches, with unread pixels said', async (t) => {
+inChromium('a damaged model still matches, with unread pixels said', async (t, browser) => {
   const { page } = await openPage(t, browser);
   const crop = await attack(marked, { kind: 'crop', amount: 0.9, format: 'glb' });
   const damaged = await attack(crop.bytes, { kind: 'noise', amount: 4e-6, format: 'glb' });
@@ -146,7 +146,7 @@ test('a damaged model still matches, with unread pixels said', async (t) => {
   await screenshot(page, '05-damaged');
 });
 
-test('a wrong key and an unmarked model both read as no mark', async (t) => {
+inChromium('a wrong key and an unmarked model both read as no mark', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const wrong = await createKey({ width: 24, height: 24 });
   for (const [name, files] of [['wrong-key', { 'sculpture.glb': marked, 'wrong.json': wrong }], ['unmarked', { 'sculpture.glb': model, 'key.json': key }]]) {
@@ -163,7 +163,7 @@ test('a wrong key and an unmarked model both read as no mark', async (t) => {
   assertQuiet(seen, browser.url);
 });
 
-test('a hidden ID is shown in hexadecimal', async (t) => {
+inChromium('a hidden ID is shown in hexadecimal', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const idKey = await createKey({ id: true, owner: 'Zoë <b>& Co</b>' });
   const { bytes } = await embed(model, { key: idKey, id: 'c0ffee' });
@@ -176,7 +176,7 @@ test('a hidden ID is shown in hexadecimal', async (t) => {
   assertQuiet(seen, browser.url);
 });
 
-test('the samples show a match, a damaged match, no mark, and no mark under a wrong key', async (t) => {
+inEach('the samples show a match, a damaged match, no mark, and no mark under a wrong key', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const samples = join(repository, 'web/samples');
   const [sampleKey, marks, damaged, sampleLogo] = await Promise.all(['key.json', 'marked.glb', 'damaged.glb', 'logo.png'].map((name) => readFile(join(samples, name))));
@@ -205,7 +205,7 @@ test('the samples show a match, a damaged match, no mark, and no mark under a wr
   assertQuiet(seen, browser.url);
 });
 
-test('real models read on the page as they do in Node', async (t) => {
+inChromium('real models read on the page as they do in Node', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   for (const name of ['bunny.glb', 'fandisk.ply', 'igea-tristrips.ply']) {
     const path = realModel(t, name);

@@ -1,53 +1,67 @@
 // SPDX-License-Identifier: MIT
-// The built page in a real Chromium: served under its policy, watched for anything it must not do, and used as a
-// person does (files dropped through the browser's own drag and drop, buttons, keys).
+// The built page in a real Chromium and a real Firefox: served under its policy, watched for anything it must not do, and
+// used as a person does (files dropped through the browser's own drag and drop, buttons, keys). Test bodies are written in
+// Playwright's words; support/firefox_page.mjs knows those they use.
 import assert from 'node:assert/strict';
 import { existsSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { readFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
-import { chromium } from 'playwright-core';
+import { test } from 'node:test';
 import { createKey, embed } from 'quadmark';
 import { generate } from 'quadmark/lab';
 import { servePage } from '../web/serve.mjs';
+import { openChromium } from './support/chromium.mjs';
 import { repository } from './support/files.mjs';
+import { noFirefox, startFirefox } from './support/firefox.mjs';
+import { FirefoxPage, openFirefoxPage } from './support/firefox_page.mjs';
 import { logo } from './support/marks.mjs';
 
 export const pageRoot = join(repository, 'web/dist');
 /** Pictures and papers of each state, for the eye. */
 export const screenshots = join(repository, 'build/screenshots');
 
-/** Starts server and browser for one test file; both end with its tests. `after` is node:test's. */
-export async function startBrowser(after, { serviceWorkers = 'block', viewport = { width: 1280, height: 860 } } = {}) {
+const VIEWPORT = { width: 1280, height: 860 };
+
+async function serve(after) {
   assert.ok(existsSync(join(pageRoot, 'index.html')), 'the page is not built: npm run build --workspace web');
   const { server, url } = await servePage({ root: pageRoot });
-  const profile = mkdtempSync(join(tmpdir(), 'quadmark-chromium-'));
-  let context;
-  after(async () => {
-    await context?.close();
+  after(() => {
     server.close();
     server.closeAllConnections();
-    rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
   });
-  context = await chromium.launchPersistentContext(profile, {
-    executablePath: process.env.QUADMARK_CHROMIUM || '/usr/bin/chromium',
-    headless: true,
-    viewport,
-    acceptDownloads: true,
-    serviceWorkers,
-    args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
-      '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-  });
-  return { context, url };
+  return url;
+}
+
+/** Starts server and Chromium for one test file; both end with its tests. `after` is node:test's. */
+export async function startBrowser(after, { serviceWorkers = 'block', viewport = VIEWPORT } = {}) {
+  const url = await serve(after);
+  const context = await openChromium({ after }, { webgl: true, viewport, acceptDownloads: true, serviceWorkers });
+  return { name: 'Chromium', context, url };
+}
+
+/**
+ * Starts server, Chromium and Firefox for one test file.
+ * @return {{ inEach, inChromium }}  make tests of both browsers, or of one: (name, async (t, browser) => ...)
+ */
+export async function startBrowsers(after, options) {
+  const [chromium, firefox] = await Promise.all([startBrowser(after, options), noFirefox ? null : startFirefox(after, options)]);
+  const inChromium = (name, body) => test(name, (t) => body(t, chromium));
+  const inEach = (name, body) => {
+    inChromium(`${name} (Chromium)`, body);
+    test(`${name} (Firefox)`, { skip: noFirefox }, (t) => body(t, { name: 'Firefox', firefox, url: chromium.url }));
+  };
+  return { inEach, inChromium };
 }
 
 /**
  * Opens the page in a tab that goes when the test `t` ends. `seen.trouble` collects console errors and warnings,
  * exceptions, violations of the policy and failed requests; `seen.requests` every URL asked for, workers included.
  */
-export async function openPage(t, { context, url }, { path = '' } = {}) {
-  const page = await context.newPage();
+export async function openPage(t, { context, firefox, url }, { path = '' } = {}) {
   const seen = { trouble: [], requests: [], headers: new Map() };
+  if (firefox) return { page: await openFirefoxPage(t, firefox, url + path, seen, VIEWPORT), seen };
+  const page = await context.newPage();
   page.on('console', (message) => {
     // Said by the test's own tool where a test wants no service worker.
     if (message.text() === 'Service Worker registration blocked by Playwright') return;
@@ -85,7 +99,8 @@ export async function openPage(t, { context, url }, { path = '' } = {}) {
 export function assertQuiet(seen, url) {
   assert.deepEqual(seen.trouble, []);
   const origin = new URL(url).origin;
-  assert.deepEqual(seen.requests.filter((request) => !request.startsWith(`${origin}/`) && !request.startsWith(`blob:${origin}/`)), []);
+  const isOwn = (request) => request.startsWith(`${origin}/`) || request.startsWith(`blob:${origin}/`) || request.startsWith('data:');
+  assert.deepEqual(seen.requests.filter((request) => !isOwn(request)), []);
 }
 
 /** Waits until the 3D view below `id` draws or says why not; returns "ready" or "failed". */
@@ -108,14 +123,22 @@ export function onDisk(t, files) {
   return { folder, paths };
 }
 
-/** Drops files or folders of the disk onto the middle of the page, through the browser itself. */
-export async function drop(page, paths, { leave = false } = {}) {
+/**
+ * Drops files or folders of the disk onto the middle of the page, through the browser itself.
+ * @param hanging  called while they hang over the page; then they are taken away again (Chromium: stay there)
+ */
+export async function drop(page, paths, { hanging } = {}) {
+  if (page instanceof FirefoxPage) {
+    await page.dropFiles(paths, { hanging });
+    return;
+  }
   const session = await page.context().newCDPSession(page);
   const { width, height } = page.viewportSize();
   const event = { x: width / 2, y: height / 2, data: { items: [], files: paths, dragOperationsMask: 1 } };
   await session.send('Input.dispatchDragEvent', { ...event, type: 'dragEnter' });
   await session.send('Input.dispatchDragEvent', { ...event, type: 'dragOver' });
-  if (!leave) await session.send('Input.dispatchDragEvent', { ...event, type: 'drop' });
+  if (hanging) await hanging();  // the debugger cannot take them away again
+  else await session.send('Input.dispatchDragEvent', { ...event, type: 'drop' });
   await session.detach();
 }
 
@@ -166,8 +189,23 @@ export async function assertPicture(page, image) {
   assert.deepEqual(levels, Array.from(image.bits, (bit) => (bit ? 0 : 255)));
 }
 
+/** Two fingers on the screen go apart from `gap` to `wider` pixels around a place. */
+export async function spreadFingers(page, [x, y], gap, wider) {
+  if (page instanceof FirefoxPage) {
+    await page.spreadFingers([x, y], gap, wider);
+    return;
+  }
+  const session = await page.context().newCDPSession(page);
+  const fingers = (apart) => [{ x: x - apart / 2, y, id: 1 }, { x: x + apart / 2, y, id: 2 }];
+  await session.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: fingers(gap) });
+  for (let i = 1; i <= 6; ++i) await session.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: fingers(gap + (wider - gap) * i / 6) });
+  await session.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+  await session.detach();
+}
+
 /** Clicks a link that downloads; { name, bytes } of the file. */
 export async function save(page, selector) {
+  if (page instanceof FirefoxPage) return page.save(selector);
   const [download] = await Promise.all([page.waitForEvent('download'), page.locator(selector).click()]);
   return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
 }
@@ -175,7 +213,8 @@ export async function save(page, selector) {
 /** Leaves <name>.png for the eye. */
 export async function screenshot(page, name, options = {}) {
   mkdirSync(screenshots, { recursive: true });
-  await page.screenshot({ path: join(screenshots, `${name}.png`), fullPage: true, ...options });
+  const file = page instanceof FirefoxPage ? `firefox-${name}.png` : `${name}.png`;
+  await page.screenshot({ path: join(screenshots, file), fullPage: true, ...options });
 }
 
 /** { model, marked, key, image } of a generated sculpture in `format`. */

@@ -2,20 +2,20 @@
 // A model of a million vertices: the page stays free while it is read, searched and drawn. How long the page's own thread
 // is ever busy is measured by bench/page.mjs; here only that the work is not done on it.
 import assert from 'node:assert/strict';
-import { after, test } from 'node:test';
+import { after } from 'node:test';
 import { createKey, embed } from 'quadmark';
 import { generate } from 'quadmark/lab';
-import { assertQuiet, drop, onDisk, openPage, screenshot, startBrowser, waitFor, waitForView } from './page_helpers.mjs';
+import { assertQuiet, drop, onDisk, openPage, screenshot, startBrowsers, waitFor, waitForView } from './page_helpers.mjs';
 import { longestTask, watchLongTasks } from './support/long_tasks.mjs';
 
-const browser = await startBrowser(after);
+const { inEach } = await startBrowsers(after);
+const key = await createKey({ owner: 'large' });
+const { bytes: model, vertices } = await generate({ name: 'sculpture', vertices: 1e6, format: 'ply' });
+const { bytes } = await embed(model, { key, id: 'abcdef' });
 
-test('a million vertices are verified and drawn while the page stays free', async (t) => {
-  const { page, seen } = await openPage(t, browser);
-  const key = await createKey({ owner: 'large' });
-  const { bytes: model, vertices } = await generate({ name: 'sculpture', vertices: 1e6, format: 'ply' });
+inEach('a million vertices are verified and drawn while the page stays free', async (t, browser) => {
   assert.ok(vertices >= 0.99e6);
-  const { bytes } = await embed(model, { key, id: 'abcdef' });
+  const { page, seen } = await openPage(t, browser);
   const { paths } = onDisk(t, { 'large.ply': bytes, 'key.json': key });
   await watchLongTasks(page);
   const started = Date.now();

@@ -9,6 +9,7 @@ import { assertQuiet, drop, onDisk, openPage, screenshot, startBrowser, waitFor 
 import { logo } from './support/marks.mjs';
 
 const browser = await startBrowser(after);
+const { bytes: small } = await generate({ name: 'sculpture', vertices: 3000, format: 'glb' });
 
 /** Elements with text of their own whose contrast against the nearest background is below WCAG's AA. */
 function lowContrast(page) {
@@ -64,6 +65,16 @@ for (const scheme of ['light', 'dark']) {
       await drop(page, onDisk(t, { [name]: 'glTF', 'what.xyz': '?' }).paths);
       await waitFor(page, 'problem');
       await check('problem');
+      if (size !== 'phone') return;
+      await page.locator('#tab-mark').click();
+      await page.locator('#mark-model-input').setInputFiles(onDisk(t, { 'small.glb': small }).paths);
+      await page.locator('#payload-kinds label', { hasText: 'ID' }).click();
+      await page.locator('#id-input').fill('c0ffee');
+      await check('mark-ready');
+      await page.locator('#mark-button').click();
+      await page.waitForFunction(() => document.getElementById('mark-outcome').dataset.state === 'done', null, { timeout: 60000 });
+      assert.ok((await page.locator('#mark-verdict').boundingBox()).y < 200, 'the result is in sight');
+      await check('mark-done');
     });
   }
 }

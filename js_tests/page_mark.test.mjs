@@ -7,16 +7,16 @@ import { after, test } from 'node:test';
 import Ajv from 'ajv';
 import { createKey, embed, extract } from 'quadmark';
 import { generate } from 'quadmark/lab';
-import { assertQuiet, drop, onDisk, openPage, save, screenshot, startBrowser, waitFor, waitForView } from './page_helpers.mjs';
+import { assertQuiet, drop, onDisk, openPage, save, screenshot, startBrowsers, waitFor, waitForView } from './page_helpers.mjs';
 import { repository } from './support/files.mjs';
 import { splitGlb } from './support/gltf.mjs';
 import { logo, logoPng } from './support/marks.mjs';
 
-const browser = await startBrowser(after);
+const { inEach } = await startBrowsers(after);
 const { bytes: model } = await generate({ name: 'sculpture', vertices: 20000, format: 'glb' });
 const validate = new Ajv().compile(JSON.parse(readFileSync(join(repository, 'web/src/report/schema.json'))));
 
-async function openMark(t) {
+async function openMark(t, browser) {
   const { page, seen } = await openPage(t, browser);
   await page.locator('#tab-mark').click();
   return { page, seen };
@@ -33,8 +33,8 @@ const preview = (page) => page.evaluate(() => {
   return { width: canvas.width, height: canvas.height, bits: Array.from({ length: data.length / 4 }, (_, i) => (data[4 * i] === 0 ? 1 : 0)) };
 });
 
-test('a dropped model and logo are marked, compared and handed out', async (t) => {
-  const { page, seen } = await openMark(t);
+inEach('a dropped model and logo are marked, compared and handed out', async (t, browser) => {
+  const { page, seen } = await openMark(t, browser);
   await drop(page, onDisk(t, { 'statue.glb': model }).paths);
   await page.waitForFunction(() => /20,010 vertices, [\d,]+ places for the mark: pictures up to about 3\d × 3\d pixels fit\./.test(document.getElementById('room').textContent));
   assert.match(await page.locator('#mark-needs').innerText(), /^Still needed: a picture\.$/);
@@ -78,8 +78,8 @@ test('a dropped model and logo are marked, compared and handed out', async (t) =
   assertQuiet(seen, browser.url);
 });
 
-test('logos may be SVG or JPEG; threshold, size and inversion show at once', async (t) => {
-  const { page, seen } = await openMark(t);
+inEach('logos may be SVG or JPEG; threshold, size and inversion show at once', async (t, browser) => {
+  const { page, seen } = await openMark(t, browser);
   const svg = '<svg xmlns="http://www.w3.org/2000/svg" width="40" height="20"><rect width="20" height="20" fill="#333"/><rect x="20" width="20" height="20" fill="#aaa"/></svg>';
   await page.locator('#logo-input').setInputFiles(onDisk(t, { 'two.svg': svg }).paths[0]);
   await page.waitForFunction(() => document.getElementById('logo-told').textContent !== '');
@@ -110,8 +110,8 @@ test('logos may be SVG or JPEG; threshold, size and inversion show at once', asy
   assertQuiet(seen, browser.url);
 });
 
-test('an ID with a loaded key, a text with a passphrase, a glTF with its buffer', async (t) => {
-  const { page, seen } = await openMark(t);
+inEach('an ID with a loaded key, a text with a passphrase, a glTF with its buffer', async (t, browser) => {
+  const { page, seen } = await openMark(t, browser);
   const { gltf, bin } = splitGlb(model, 'data.bin');
   const key = await createKey({ owner: 'loaded' });
   await drop(page, onDisk(t, { 'scene.gltf': gltf, 'data.bin': bin, 'key.json': key }).paths);
@@ -133,9 +133,9 @@ test('an ID with a loaded key, a text with a passphrase, a glTF with its buffer'
   await page.locator('#mark-passphrase').fill('a long enough passphrase');
   await page.keyboard.press('Enter');
   await page.waitForFunction(() => document.activeElement.id === 'mark-button');
+  const before = await page.locator('#save-key').getAttribute('href');
   await page.keyboard.press('Enter');
-  await waitForMark(page, 'working');
-  await waitForMark(page, 'done');
+  await page.waitForFunction((old) => document.getElementById('mark-outcome').dataset.state === 'done' && document.getElementById('save-key').getAttribute('href') !== old, before, { timeout: 60000 });
   const phrase = await save(page, '#save-key');
   const textGltf = await save(page, '#save-model'), textBin = await save(page, '#mark-saves a[download="data.bin"]');
   const text = await extract(textGltf.bytes, { key: phrase.bytes, resources: { 'data.bin': textBin.bytes } });
@@ -143,8 +143,8 @@ test('an ID with a loaded key, a text with a passphrase, a glTF with its buffer'
   assertQuiet(seen, browser.url);
 });
 
-test('what cannot be marked is said with the place', async (t) => {
-  const { page, seen } = await openMark(t);
+inEach('what cannot be marked is said with the place', async (t, browser) => {
+  const { page, seen } = await openMark(t, browser);
   await drop(page, onDisk(t, { 'cut.glb': model.subarray(0, 5000) }).paths);
   await waitForMark(page, 'problem');
   assert.equal(await page.locator('#mark-problem-title').innerText(), 'cut.glb cannot be read.');
@@ -163,8 +163,8 @@ test('what cannot be marked is said with the place', async (t) => {
   assertQuiet(seen, browser.url);
 });
 
-test('marking can be cancelled; the marked file then verifies on the other tab, under its salt', async (t) => {
-  const { page, seen } = await openMark(t);
+inEach('marking can be cancelled; the marked file then verifies on the other tab, under its salt', async (t, browser) => {
+  const { page, seen } = await openMark(t, browser);
   const { bytes: large } = await generate({ name: 'sculpture', vertices: 300000, format: 'glb' });
   await page.locator('#payload-kinds label', { hasText: 'ID' }).click();
   await page.locator('#id-input').fill('1');

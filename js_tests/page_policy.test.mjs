@@ -6,10 +6,10 @@ import { request } from 'node:http';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
 import { HEADER_POLICY, PAGE_POLICY, servePage } from '../web/serve.mjs';
-import { assertQuiet, openPage, pageRoot, shown, startBrowser, waitFor } from './page_helpers.mjs';
+import { assertQuiet, openPage, pageRoot, shown, startBrowsers, waitFor } from './page_helpers.mjs';
 import { repository, run, temporaryFolder } from './support/files.mjs';
 
-const browser = await startBrowser(after);
+const { inEach, inChromium } = await startBrowsers(after);
 
 /** One request with the path exactly as given: fetch would tidy it. */
 function ask(url, path, { method = 'GET' } = {}) {
@@ -39,7 +39,7 @@ test('header and page hold one policy, without eval and inline code', () => {
   assert.doesNotMatch(html, /<script(?![^>]*\ssrc=)|<style|\sstyle=|\son[a-z]+=/i);
 });
 
-test('everything is sent with the policy and its right type, the worker script too', async (t) => {
+inChromium('everything is sent with the policy and its right type, the worker script too', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   await page.locator('[data-sample="marked"]').click();
   await waitFor(page, 'match');
@@ -57,7 +57,7 @@ test('everything is sent with the policy and its right type, the worker script t
   }
 });
 
-test('code from strings, inline code and other origins are refused, and the watch sees it', async (t) => {
+inEach('code from strings, inline code and other origins are refused, and the watch sees it', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const reached = await page.evaluate(async () => {
     const attempts = {};
@@ -90,20 +90,20 @@ test('code from strings, inline code and other origins are refused, and the watc
   }
 });
 
-test('the page works from a folder below the root of a server', async (t) => {
+inEach('the page works from a folder below the root of a server', async (t, browser) => {
   const { server, url } = await servePage({ root: join(pageRoot, '..') });
   t.after(() => {
     server.close();
     server.closeAllConnections();
   });
-  const { page, seen } = await openPage(t, { context: browser.context, url }, { path: 'dist/' });
+  const { page, seen } = await openPage(t, { ...browser, url }, { path: 'dist/' });
   await page.locator('[data-sample="marked"]').click();
   await waitFor(page, 'match');
   assertQuiet(seen, url);
   assert.deepEqual(seen.requests.filter((request) => request.startsWith(url) && !request.startsWith(`${url}dist/`)), []);
 });
 
-test('a detector or a sample that cannot be loaded is said, and may be tried again', async (t) => {
+inChromium('a detector or a sample that cannot be loaded is said, and may be tried again', async (t, browser) => {
   const { page } = await openPage(t, browser);
   for (const [pattern, title] of [[/\.wasm$/, 'The page could not load its detector.'], [/\/assets\/index-[^/]*\.js$/, 'The page hit a fault of its own.']]) {
     await page.reload();

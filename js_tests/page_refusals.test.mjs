@@ -3,14 +3,15 @@
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { generate } from 'quadmark/lab';
-import { assertPicture, assertQuiet, drop, markedSculpture, onDisk, openPage, picture, screenshot, shown, startBrowser, waitFor } from './page_helpers.mjs';
+import { assertPicture, assertQuiet, drop, markedSculpture, onDisk, openPage, picture, screenshot, shown, startBrowsers, waitFor } from './page_helpers.mjs';
 import { splitGlb } from './support/gltf.mjs';
 import { logo, logoPng } from './support/marks.mjs';
 
-const browser = await startBrowser(after);
+const { inEach, inChromium } = await startBrowsers(after);
 const { marked, key, image } = await markedSculpture({ vertices: 2500 });
-const ply = (rows) => `ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z
-element face 2\nproperty list uchar int vertex_indices\nend_header\n${rows}\n3 0 1 2\n3 0 2 3\n`;
+const ply = (rows, faces = ['3 0 1 2', '3 0 2 3'], count = faces.length) => `ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z
+element face ${count}\nproperty list uchar int vertex_indices\nend_header\n${rows}\n${faces.map((face) => `${face}\n`).join('')}`;
+const SQUARE = '0 0 0\n1 0 0\n1 1 0\n0 1 0.5';
 
 /** Drops `files` on a fresh page and returns what it shows once it has decided. */
 async function refuse(t, page, files) {
@@ -23,7 +24,7 @@ async function refuse(t, page, files) {
   return seen;
 }
 
-test('broken models are refused with the file and the place', async (t) => {
+inEach('broken models are refused with the file and the place', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const lying = Buffer.from(marked);
   lying.writeUInt32LE(0xfffffff0, 12);  // the length of the JSON chunk
@@ -32,8 +33,12 @@ test('broken models are refused with the file and the place', async (t) => {
     ['magic.glb', Buffer.from('Kaydara FBX Binary  \0'), /^magic\.glb cannot be read\.$/, /not a PLY, glTF, GLB or DRC.*Kaydara/],
     ['cut.glb', marked.subarray(0, marked.length >> 1), /^cut\.glb cannot be read\.$/, /GLB|chunk|ends/],
     ['lying.glb', lying, /^lying\.glb cannot be read\.$/, /chunk|JSON|length/],
-    ['cut.ply', ply('0 0 0\n1 0 0\n1 1 0\n0 1 0.5').slice(0, -20), /^cut\.ply cannot be read\.$/, /vertex|face/],
+    ['cut.ply', ply(SQUARE).slice(0, -20), /^cut\.ply cannot be read\.$/, /vertex|face/],
+    ['lying.ply', ply(SQUARE, undefined, 4e9), /^lying\.ply cannot be read\.$/, /element "face": 4000000000 rows/],
+    ['index.ply', ply(SQUARE, ['3 0 1 9']), /^index\.ply cannot be read\.$/, /face 0: vertex index 9/],
+    ['points.ply', ply(SQUARE, []), /^points\.ply has no usable surface\.$/, /no faces/],
     ['nan.ply', ply('0 0 0\n1 0 0\n1 nan 0\n0 1 0.5'), /^nan\.ply has no usable surface\.$/, /vertex 2/],
+    ['inf.ply', ply('0 0 0\n1 0 0\n1 1 0\n0 -inf 0.5'), /^inf\.ply has no usable surface\.$/, /vertex 3, property y/],
     ['broken.gltf', '{"asset": {"version": "2.0"', /^broken\.gltf cannot be read\.$/, /JSON/],
     ['hello.gltf', '{"hello": 1}', /^hello\.gltf cannot be read\.$/, /./],
   ];
@@ -48,13 +53,16 @@ test('broken models are refused with the file and the place', async (t) => {
   assertQuiet(seen, browser.url);
 });
 
-test('broken keys and unfitting references are refused under their own names', async (t) => {
+inEach('broken keys and unfitting references are refused under their own names', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const cases = [
     [{ 'bad.json': '{' }, /^bad\.json is not a usable key\.$/, /key file/i],
     [{ 'bad.json': '{"a": 1}' }, /^bad\.json is not a usable key\.$/, /quadmark/],
     [{ 'short.json': { ...key, secret: 'AAAA' } }, /^short\.json is not a usable key\.$/, /secret/],
     [{ 'newer.json': { ...key, quadmark: 99 } }, /^newer\.json is of a newer version\.$/, /99/],
+    [{ 'scheme.json': { ...key, scheme: 'magic' } }, /^scheme\.json is not a usable key\.$/, /scheme "magic"/],
+    [{ 'key.json': key, 'pixel.png': logoPng({ width: 1, height: 1, bits: [1] }) }, /^pixel\.png does not fit\.$/, /single pixel/],
+    [{ 'key.json': key, 'wide.png': logoPng({ width: 1500, height: 2, bits: new Uint8Array(3000) }) }, /^wide\.png is too large\.$/, /1500 x 2 pixels, at most 1024/],
     [{ 'key.json': key, 'small.png': logoPng(logo(10, 10)) }, /^small\.png does not fit\.$/, /10 x 10.*24 x 24/],
     [{ 'key.json': key, 'cut.png': logoPng(image).subarray(0, 40) }, /^cut\.png does not fit\.$/, /./],
   ];
@@ -67,7 +75,7 @@ test('broken keys and unfitting references are refused under their own names', a
   assertQuiet(seen, browser.url);
 });
 
-test('a glTF without its buffers names them, and goes on when they come', async (t) => {
+inEach('a glTF without its buffers names them, and goes on when they come', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const { gltf, bin } = splitGlb(marked, 'mesh%20data.bin');
   const told = await refuse(t, page, { 'scene.gltf': gltf, 'key.json': key });
@@ -92,7 +100,7 @@ test('a glTF without its buffers names them, and goes on when they come', async 
   assertQuiet(seen, browser.url);  // above all: it was not fetched
 });
 
-test('files of no use, and two keys at once, are said and change nothing', async (t) => {
+inEach('files of no use, and two keys at once, are said and change nothing', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   await drop(page, onDisk(t, { 'photo.jpg': 'not one of ours' }).paths);
   await page.locator('#notices li').waitFor();
@@ -107,7 +115,7 @@ test('files of no use, and two keys at once, are said and change nothing', async
   assertQuiet(seen, browser.url);
 });
 
-test('text dragged onto the page is answered, and never opened', async (t) => {
+inChromium('text dragged onto the page is answered, and never opened', async (t, browser) => {
   const { page } = await openPage(t, browser);
   const session = await page.context().newCDPSession(page);
   const event = { x: 300, y: 300, data: { items: [{ mimeType: 'text/plain', data: 'hello' }], dragOperationsMask: 1 } };
@@ -121,14 +129,17 @@ test('text dragged onto the page is answered, and never opened', async (t) => {
   assert.match((await shown(page)).notices[0], /^That was no file\./);
 });
 
-test('the veil shows while files hang over the page', async (t) => {
+inEach('the veil shows while files hang over the page', async (t, browser) => {
   const { page } = await openPage(t, browser);
-  await drop(page, onDisk(t, { 'a.glb': marked }).paths, { leave: true });
-  await page.locator('#veil').waitFor({ state: 'visible' });
-  await screenshot(page, '14-veil');
+  await drop(page, onDisk(t, { 'a.glb': marked }).paths, { hanging: async () => {
+    await page.locator('#veil').waitFor({ state: 'visible' });
+    await screenshot(page, '14-veil');
+  } });
+  if (browser.name === 'Firefox') await page.waitForFunction(() => document.getElementById('veil').hidden);
+  assert.equal(await page.locator('#outcome').getAttribute('data-state'), 'idle');
 });
 
-test('everything is reached with the keyboard alone', async (t) => {
+inEach('everything is reached with the keyboard alone', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const order = [];
   for (let i = 0; i < 14; ++i) {
@@ -154,7 +165,7 @@ test('everything is reached with the keyboard alone', async (t) => {
   assertQuiet(seen, browser.url);
 });
 
-test('a file chosen for the wrong slot is explained', async (t) => {
+inEach('a file chosen for the wrong slot is explained', async (t, browser) => {
   const { page } = await openPage(t, browser);
   const { paths: [glb, json] } = onDisk(t, { 'model.glb': marked, 'key.json': key });
   await page.locator('#model-input').setInputFiles(json);
@@ -168,12 +179,13 @@ test('a file chosen for the wrong slot is explained', async (t) => {
   assert.equal((await shown(page)).title, 'model.glb is not a usable key.');
 });
 
-test('a check can be cancelled, and another one follows', async (t) => {
+inEach('a check can be cancelled, and another one follows', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const large = await generate({ name: 'sculpture', vertices: 400000, format: 'ply' });
   await drop(page, onDisk(t, { 'large.ply': large.bytes, 'key.json': key }).paths);
   await page.waitForFunction(() => document.getElementById('progress').dataset.stage === 'search');
   assert.equal(await page.locator('#outcome').getAttribute('aria-busy'), 'true');
+  assert.ok(page.workers().length > 0);
   await screenshot(page, '15-working');
   await page.locator('#cancel').click();
   await waitFor(page, 'idle');
@@ -188,7 +200,7 @@ test('a check can be cancelled, and another one follows', async (t) => {
   assertQuiet(seen, browser.url);
 });
 
-test('new files during a check replace it', async (t) => {
+inEach('new files during a check replace it', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const large = await generate({ name: 'sculpture', vertices: 150000, format: 'glb' });
   await drop(page, onDisk(t, { 'large.glb': large.bytes, 'key.json': key }).paths);

@@ -7,13 +7,13 @@ import { createKey, embed, extract, inspect } from 'quadmark';
 import { attack, generate } from 'quadmark/lab';
 import { readGeometry } from '../web/src/view3d/geometry/index.js';
 import { displacementColours, evidenceColours } from '../web/src/view3d/heat.js';
-import { assertQuiet, drop, onDisk, openPage, screenshot, startBrowser, waitFor, waitForView } from './page_helpers.mjs';
+import { assertQuiet, drop, onDisk, openPage, screenshot, spreadFingers, startBrowsers, waitFor, waitForView } from './page_helpers.mjs';
 import { compressGlb, encodeDraco, meshOf } from './support/draco.mjs';
 import { allRealModels, readModelFiles } from './support/files.mjs';
 import { makeGlb, openGltf } from './support/gltf.mjs';
 import { logo } from './support/marks.mjs';
 
-const browser = await startBrowser(after);
+const { inEach, inChromium } = await startBrowsers(after);
 const key = await createKey({ owner: 'the view' });
 const openDraco = () => draco3d.createDecoderModule();
 
@@ -49,7 +49,7 @@ async function changed(page, act) {
   return look(page);
 }
 
-test('the model is drawn with its evidence, and turned by mouse, wheel, touch and keys', async (t) => {
+inEach('the model is drawn with its evidence, and turned by mouse, wheel, touch and keys', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   assert.equal(seen.requests.some((url) => /scene-[^/]*\.js$/.test(url)), false, 'three.js waits until it is needed');
   await page.locator('[data-sample="marked"]').click();
@@ -77,13 +77,7 @@ test('the model is drawn with its evidence, and turned by mouse, wheel, touch an
   assert.ok(nearer.covered > turned.covered * 1.1, 'nearer');
   const wheel = await changed(page, () => page.mouse.wheel(0, 400));
   assert.ok(wheel.covered < nearer.covered, 'the wheel zooms out');
-  const touched = await changed(page, async () => {
-    const session = await page.context().newCDPSession(page);
-    const finger = (dx) => [{ x: middle[0] - 40 - dx, y: middle[1], id: 1 }, { x: middle[0] + 40 + dx, y: middle[1], id: 2 }];
-    await session.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: finger(0) });
-    for (let i = 1; i <= 6; ++i) await session.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: finger(10 * i) });
-    await session.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
-  });
+  const touched = await changed(page, () => spreadFingers(page, middle, 80, 200));
   assert.ok(touched.covered > wheel.covered, 'two fingers zoom in');
   const again = await changed(page, () => canvas.press('0'));
   assert.ok(Math.abs(again.covered - first.covered) < 0.002 && Math.abs(again.blue - first.blue) < 0.01, 'back where it began');
@@ -94,7 +88,7 @@ test('the model is drawn with its evidence, and turned by mouse, wheel, touch an
   assertQuiet(seen, browser.url);
 });
 
-test('each node has its share of the evidence', async (t) => {
+inEach('each node has its share of the evidence', async (t, browser) => {
   const { page } = await openPage(t, browser);
   await page.locator('[data-sample="damaged"]').click();
   await waitFor(page, 'match');
@@ -106,7 +100,7 @@ test('each node has its share of the evidence', async (t) => {
   assert.match(await page.locator('#view').innerText(), /There is no evidence to show/);
 });
 
-test('Draco is drawn with its evidence, by a decoder fetched for it; without that decoder it is said', async (t) => {
+inChromium('Draco is drawn with its evidence, by a decoder fetched for it; without that decoder it is said', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   const { bytes } = await generate({ name: 'sculpture', vertices: 8000, format: 'glb' });
   const marked = Buffer.from((await embed(bytes, { key, id: '1' })).bytes);

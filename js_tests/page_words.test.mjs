@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import { ERROR_EXIT_STATUS } from 'quadmark';
 import { findPart } from '../web/src/files/paths.js';
 import { sortItems, splitStrangers } from '../web/src/files/sort.js';
-import { LANGUAGES, scientific, setLanguage, sizeWords, TEXTS } from '../web/src/words/language.js';
+import { LANGUAGES, scientific, secondsWords, setLanguage, sizeWords, TEXTS } from '../web/src/words/language.js';
 import { oneIn, oneInSpoken, verdictWords } from '../web/src/words/odds.js';
 import { missingWords, problemWords, sentence } from '../web/src/words/problems.js';
 
@@ -96,6 +96,7 @@ test('German words and numbers', (t) => {
   assert.equal(verdictWords({ verdict: 'match', falsePositive: 1e-20 }).label, 'Treffer');
   assert.equal(problemWords({ about: 'model', code: 'bad_file', message: 'cut off' }, { model: 'a.glb' }).title, 'a.glb ist nicht lesbar.');
   assert.deepEqual([1, 1.5e6].map(sizeWords), ['1 Byte', '1,5 MB']);
+  assert.equal(secondsWords(1304), '1,30 s');
   assert.deepEqual([0, 0.0125, 5.74e-10].map(scientific), ['0', '0,0125', '5,7 × 10⁻¹⁰']);
 });
 

@@ -14,14 +14,16 @@ export const noChromium = existsSync(executablePath)
 
 /**
  * A browser context that closes when the test `t` ends.
- * @param webgl  whether pages may draw with WebGL, by software
+ * @param webgl    whether pages may draw with WebGL, by software
+ * @param options  further ones of Playwright's launchPersistentContext()
  */
-export async function openChromium(t, { webgl = false } = {}) {
+export async function openChromium(t, { webgl = false, ...options } = {}) {
   const profile = mkdtempSync(join(tmpdir(), 'quadmark-chromium-'));
   const context = await chromium.launchPersistentContext(profile, {
     executablePath,
     headless: true,
     timeout: 120_000,  // a loaded machine takes its time
+    ...options,
     args: ['--headless', '--no-sandbox', '--disable-quic', '--disable-dev-shm-usage', '--no-first-run',
       '--disable-background-networking', '--disable-component-update', '--disable-sync',
       ...(webgl ? ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-gpu'])],
