@@ -35,6 +35,11 @@ export class Panels {
     if (panel !== 'result') this.#view.close();
   }
 
+  /** On narrow screens the outcome lies below what was filled in. */
+  bringIntoSight() {
+    if (matchMedia('(max-width: 56rem)').matches) this.#part('outcome').scrollIntoView({ block: 'start' });
+  }
+
   idle(text, { spoken = false } = {}) {
     this.#part('idle-text').textContent = text;
     if (spoken) announce(text);

@@ -5,7 +5,7 @@ import { baseName, stemOf } from '../files/paths.js';
 import { Panels } from '../panels.js';
 import { markingRecord } from '../report/record.js';
 import { ViewPanel } from '../view3d/panel.js';
-import { hasText, scientific, t, tenthWords, wholeWords } from '../words/language.js';
+import { hasText, scientific, secondsWords, t, tenthWords, wholeWords } from '../words/language.js';
 import { oneInSpoken } from '../words/odds.js';
 
 const urls = new Urls();
@@ -24,7 +24,7 @@ function factsOf({ report, millis, inputs, outputs }) {
     [t('factSnr'), t('decibels', tenthWords(distortion.snrDb))],
     [t('factNormals'), t('degrees', tenthWords(distortion.meanNormalDeg))],
     [t('factBytes'), wholeWords(report.bytesChanged)],
-    [t('factTime'), `${(millis / 1000).toFixed(2)} s`],
+    [t('factTime'), secondsWords(millis)],
     [t('factHash', inputs.model.name), inputs.model.sha256],
     [t('factHash', `${outputs.model.name} (${t('sampleMarked').toLowerCase()})`), outputs.model.sha256],
   ];
@@ -64,5 +64,6 @@ export function showResult(result, request, { spoken = true } = {}) {
   view.offer({ kind: 'compare', model, parts, after });
   if (!spoken) return;
   $('mark-verdict').focus({ preventScroll: true });
+  panels.bringIntoSight();
   announce(`${t('markDone')} ${$('mark-proof').textContent} ${t('keepKey')}`);
 }

@@ -66,6 +66,7 @@ export class PayloadForm {
   /** Writes the texts again. */
   refresh() {
     $('logo-file').textContent = this.#file ? `${this.#file.name} (${sizeWords(this.#file.size)})` : t('logoHint');
+    $('logo-file').closest('.slot').classList.toggle('filled', this.#file !== null);
     $('logo-preview').setAttribute('aria-label', t('logoAlt'));
     if (!this.#image) return;
     const { width, height, bits } = this.#image;

@@ -48,8 +48,8 @@ function showRoom() {
 function update() {
   const extra = given.parts.length > 0 ? t('moreFiles', given.parts.length) : '';
   $('mark-model-file').textContent = given.model ? told(given.model) + extra : t('markModelHint');
-  document.querySelector('[data-mark-slot="model"]').classList.toggle('filled', given.model !== null);
   $('mark-key-file').textContent = given.keyFile ? told(given.keyFile) : t('keyHint');
+  for (const [id, item] of [['mark-model-file', given.model], ['mark-key-file', given.keyFile]]) $(id).closest('.slot').classList.toggle('filled', Boolean(item));
   showRoom();
   const needs = [];
   if (!given.model) needs.push(t('needModel'));
@@ -117,6 +117,7 @@ async function mark() {
   if (!request.model || typeof request.payload === 'string' || !request.key) return;
   const names = namesNow();
   panels.working(names.model);
+  panels.bringIntoSight();
   let answer;
   try {
     answer = await engine.run(request, (progress) => panels.progress(progress));

@@ -5,7 +5,7 @@ import { baseName, stemOf } from '../files/paths.js';
 import { Panels } from '../panels.js';
 import { verificationRecord } from '../report/record.js';
 import { ViewPanel } from '../view3d/panel.js';
-import { currentLanguage, hasText, percent, scientific, t, wholeWords } from '../words/language.js';
+import { currentLanguage, hasText, percent, scientific, secondsWords, t, wholeWords } from '../words/language.js';
 import { oneIn, oneInSpoken, verdictWords } from '../words/odds.js';
 import { countOnes, showPictures } from './pictures.js';
 
@@ -36,7 +36,7 @@ function factsOf(result) {
     [t('factOdds'), scientific(result.falsePositive)],
     ...known('factVertices', report.readFromVertices === undefined ? null : wholeWords(report.readFromVertices)),
     ...known('factHypotheses', report.hypotheses === undefined ? null : wholeWords(report.hypotheses)),
-    [t('factTime'), `${(result.millis / 1000).toFixed(2)} s`],
+    [t('factTime'), secondsWords(result.millis)],
     ...[inputs.model, ...inputs.resources, inputs.key, inputs.reference].filter((file) => file?.sha256)
       .map(({ name, sha256 }) => [t('factHash', name), sha256]),
   ];
@@ -89,5 +89,6 @@ export function showResult(result, names, model, { spoken = true } = {}) {
   view.offer({ kind: 'evidence', name: baseName(model.model.path), ...model, evidence: verdict === 'none' ? new Float32Array() : result.evidence });
   if (!spoken) return;
   $('verdict').focus({ preventScroll: true });
+  panels.bringIntoSight();
   announce(`${words.label}: ${words.title} ${$('odds-label').textContent}: ${oneInSpoken(falsePositive)}.`);
 }

@@ -87,7 +87,7 @@ async function check() {
     return;
   }
   now.entries = given.models.map((model) => ({ model, state: 'queued' }));
-  if (matchMedia('(max-width: 56rem)').matches) $('outcome').scrollIntoView({ block: 'start' });
+  panels.bringIntoSight();
   const many = now.entries.length > 1;
   for (const entry of now.entries) {
     entry.state = 'working';

@@ -88,7 +88,8 @@ export class ViewPanel {
     };
     const { kind, ...models } = request;
     worker.postMessage({ type: 'open', canvas: surface, ...size(), ...models }, [surface]);
-    this.#resizing = new ResizeObserver(() => this.#send({ type: 'size', ...size() }));
+    // Hidden, on paper or behind the other tab, it keeps its size and its picture.
+    this.#resizing = new ResizeObserver(() => { if (stage.clientWidth > 0) this.#send({ type: 'size', ...size() }); });
     this.#resizing.observe(stage);
     const move = {
       turn: (azimuth, height) => this.#send({ type: 'turn', azimuth, height }),

@@ -10,7 +10,7 @@ export const TEXTS = { ...PAGE_TEXTS, ...VERIFY_TEXTS, ...PROBLEM_TEXTS, ...MARK
 
 export const LANGUAGES = ['en', 'de'];
 let language = 'en';
-let whole, short, fixed;
+let whole, short, fixed, precise;
 
 /** Sets the language of all texts and numbers; another than LANGUAGES counts as English. */
 export function setLanguage(name) {
@@ -19,6 +19,7 @@ export function setLanguage(name) {
   whole = new Intl.NumberFormat(locale, { maximumFractionDigits: 0 });
   short = new Intl.NumberFormat(locale, { maximumSignificantDigits: 3 });
   fixed = new Intl.NumberFormat(locale, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
+  precise = new Intl.NumberFormat(locale, { minimumFractionDigits: 2, maximumFractionDigits: 2 });
 }
 setLanguage('en');
 
@@ -38,6 +39,8 @@ export const hasText = (name) => Object.hasOwn(TEXTS, name);
 export const wholeWords = (n) => whole.format(n);
 export const shortWords = (x) => short.format(x);
 export const tenthWords = (x) => fixed.format(x);
+/** 1300 -> "1.30 s" */
+export const secondsWords = (milliseconds) => `${precise.format(milliseconds / 1000)} s`;
 /** 0.1234 -> "12.3 %" */
 export const percent = (share) => `${short.format(share * 100)} %`;
 

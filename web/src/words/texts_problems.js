@@ -27,6 +27,8 @@ export const PROBLEM_TEXTS = {
   hint_key_io: chooseAgain,
   problem_reference_bad_image: ['does not fit', 'passt nicht'],
   hint_reference_bad_image: ['The reference is a PNG of the size that the key names. Remove it to check without one.', 'Das Vergleichsbild ist ein PNG in der Größe, die der Schlüssel nennt. Entfernen Sie es, um ohne zu prüfen.'],
+  problem_reference_too_large: ['is too large', 'ist zu groß'],
+  hint_reference_too_large: ['Hidden pictures are small, at most 128 × 128 pixels: give the reference in that size.', 'Verborgene Bilder sind klein, höchstens 128 × 128 Pixel: Geben Sie das Vergleichsbild in dieser Größe.'],
   problem_reference_io: openFailed,
   hint_reference_io: chooseAgain,
   problem_logo_bad_image: ['cannot be embedded', 'kann nicht eingebettet werden'],
