@@ -46,16 +46,17 @@ function markOf(cell, first, schemes, refused) {
   return others[Math.floor(first / blockOf(cell)) % others.length];
 }
 
-/** Block after block, each cell one at a time, so that a run that is stopped has some of everything. */
+/** Block after block of each cell, those with the fewest first, so that a run that is stopped has some of everything. */
 export async function run(context) {
   const rows = rowsOf(context),
     errors = [],
     refused = new Set(),
     dead = new Set();
+  const share = (cell) => rows.trials(cell) / wanted(context, cell.scheme);
   const open = () =>
-    cellsOf(context).filter(
-      (cell) => !dead.has(JSON.stringify(cell)) && rows.trials(cell) < wanted(context, cell.scheme),
-    );
+    cellsOf(context)
+      .filter((cell) => !dead.has(JSON.stringify(cell)) && share(cell) < 1)
+      .sort((a, b) => share(a) - share(b));
   const ended = (cell) => context.progress.ended(`chance: ${cell.scheme}, ${cell.kind}, ${cell.model}`);
 
   const block = async (cell) => {

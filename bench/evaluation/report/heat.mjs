@@ -46,7 +46,8 @@ function spec(cells, rows, columns, narrow) {
     ticks: false,
     domain: false,
     labelLimit: 0,
-    ...(narrow ? { labelExpr: "split(datum.label, ' ')" } : {}),
+    labelExpr: "split(datum.label, ' ')", // word by word, one below the other, downwards
+    labelPadding: 4 + 14 * (Math.max(...columns.map((name) => name.split(' ').length)) - 1),
   };
   const rowAxis = { ticks: false, domain: false, labelLimit: 0 };
   const y = {
@@ -57,9 +58,9 @@ function spec(cells, rows, columns, narrow) {
     axis: narrow ? null : rowAxis,
     scale: narrow ? { paddingInner: 0.48, paddingOuter: 0.5 } : {},
   };
-  const longest = Math.max(...columns.flatMap((name) => (narrow ? name.split(' ') : name)).map((word) => word.length));
+  const longest = Math.max(...columns.flatMap((name) => name.split(' ')).map((word) => word.length));
   return {
-    width: { step: narrow ? Math.max(60, 6.6 * longest) : Math.max(88, 7.2 * longest) },
+    width: { step: Math.max(narrow ? 56 : 66, 6.4 * longest) },
     height: { step: narrow ? 44 : 25 },
     data: { values: cells },
     encoding: { x: { field: 'column', type: 'nominal', sort: columns, title: null, axis: columnAxis }, y },
