@@ -4,6 +4,7 @@
 #include "io/allowed_spans.h"
 #include "io/data_uri.h"
 #include "io_fixtures.h"
+#include "models.h"
 
 namespace quadmark::test {
 namespace {
@@ -204,6 +205,18 @@ TEST(PatchGltf, RefusesPositionsThatOtherDataShares) {
     EXPECT_NE(patched.error().message.find("accessor 0 (POSITION) shares bytes with"), std::string::npos)
         << patched.error().message;
   }
+}
+
+TEST(PatchGltf, RefusesPositionsOverCompressedData) {
+  const auto file = readFile(std::string(QUADMARK_SOURCE_DIR) +
+                             "/native_tests/fuzz/found/gltf/positions-over-compressed-indices.glb");
+  ASSERT_TRUE(file.has_value());
+  const auto model = readOk(*file);
+  const Result<PatchedFile> patched = model->patch(*file, {}, model->mesh().positions);
+  ASSERT_FALSE(patched.ok());
+  EXPECT_EQ(patched.error().code, ErrorCode::unsupportedFile);
+  EXPECT_NE(patched.error().message.find("shares bytes with bufferView 1, which holds compressed data"), std::string::npos)
+      << patched.error().message;
 }
 
 TEST(PatchGltf, KeepsTheBoundsOfAllWindowsTrue) {

@@ -182,19 +182,33 @@ std::string findConflict(const GltfDocument& document, const std::vector<std::ui
     if (array == nullptr && !isPosition) array = sharing(sparse.valuesView, sparse.valuesOffset, accessor.elementBytes());
     if (array != nullptr) return message(array->accessor, "the sparse part of accessor " + std::to_string(i));
   }
-  for (const std::uint32_t view : document.imageViews) {
-    const GltfView& image = document.views[view];
-    if (image.buffer == kNone || image.byteLength == 0) continue;
+  const auto inRange = [&](std::uint32_t buffer, std::uint64_t start, std::uint64_t length) -> const Layout* {
+    if (buffer == kNone || length == 0) return nullptr;
     Layout range;
-    range.buffer = sameBuffer[image.buffer];
-    range.start = image.byteOffset;
-    range.stride = image.byteLength;
+    range.buffer = sameBuffer[buffer];
+    range.start = start;
+    range.stride = length;
     range.count = 1;
-    range.width = static_cast<std::uint32_t>(image.byteLength);
-    if (const Layout* array = index.findSharing(range)) {
-      return message(array->accessor, "bufferView " + std::to_string(view) + ", which holds an image");
-    }
-  }
+    range.width = static_cast<std::uint32_t>(length);
+    return index.findSharing(range);
+  };
+  const auto inView = [&](std::uint32_t view) {
+    const GltfView& v = document.views[view];
+    return inRange(v.buffer, v.byteOffset, v.byteLength);
+  };
+  const auto holds = [&](const Layout* array, std::uint32_t view, const char* what) {
+    return message(array->accessor, "bufferView " + std::to_string(view) + ", which holds " + what);
+  };
+  for (const std::uint32_t view : document.imageViews)
+    if (const Layout* array = inView(view)) return holds(array, view, "an image");
+  for (const GltfBuffer& buffer : document.buffers)
+    if (const auto& source = buffer.meshopt)
+      if (const Layout* array = inRange(source->buffer, source->byteOffset, source->byteLength))
+        return holds(array, source->view, "compressed data");
+  for (const GltfPrimitive& primitive : document.primitives)
+    if (primitive.draco && primitive.draco->view != kNone)
+      if (const Layout* array = inView(primitive.draco->view))
+        return holds(array, primitive.draco->view, "compressed data");
   return {};
 }
 
