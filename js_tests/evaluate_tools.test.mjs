@@ -120,6 +120,8 @@ test('rows can be forgotten, to be measured again', (t) => {
   assert.equal(new Rows(path).select().length, 1);
   rows.add({ ...row, outcome: 'lost' });
   assert.equal(new Rows(path).select({ outcome: 'lost' }).length, 1);
+  const { scheme, model } = row;
+  assert.deepEqual(rows.select({ scheme, model }).map(({ outcome }) => outcome), ['exact', 'lost'], 'what is forgotten is not found either');
 });
 
 test('the table in README.md is the one of the committed rows', (t) => {

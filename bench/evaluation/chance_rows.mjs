@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The rows of chance.csv (bench/README.md): how many trials without the reader's mark claimed what.
-import { existsSync, mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
-import { dirname } from 'node:path';
+import { existsSync, readFileSync } from 'node:fs';
 import { parse } from 'csv-parse/sync';
+import { replaceFile, textField } from './csv.mjs';
 
 const COLUMNS = ['scheme', 'settings', 'kind', 'model', 'claim', 'trials', 'matches', 'note'];
 const cellOf = ({ scheme, settings, kind, model }) => JSON.stringify([scheme, settings, kind, model]);
@@ -62,17 +62,13 @@ export class ChanceRows {
 
   /** Writes the file anew. A run that is killed meanwhile leaves the old one. */
   save() {
-    const quoted = (text) =>
-      /[",\r\n]/.test(text) ? `"${String(text).replaceAll('"', '""').replace(/\s+/g, ' ')}"` : text;
     const lines = this.cells().flatMap(({ bins, note, scheme, settings, kind, model }) =>
       (note
         ? [['', 0, 0, note]]
         : bins.map(({ claim, trials, matches }) => [claim.toFixed(1), trials, matches, ''])
-      ).map((rest) => [scheme, settings, kind, model, ...rest].map(quoted).join(',')),
+      ).map((rest) => [scheme, settings, kind, model, ...rest].map((field) => textField(String(field))).join(',')),
     );
-    mkdirSync(dirname(this.#path), { recursive: true });
-    writeFileSync(`${this.#path}.new`, `${[COLUMNS.join(','), ...lines].join('\n')}\n`);
-    renameSync(`${this.#path}.new`, this.#path);
+    replaceFile(this.#path, `${[COLUMNS.join(','), ...lines].join('\n')}\n`);
   }
 }
 

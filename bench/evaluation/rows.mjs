@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: MIT
 // The rows of readings.csv (bench/README.md): read once, appended to while measuring, sorted at the end.
-import { appendFileSync, existsSync, mkdirSync, readFileSync, renameSync, truncateSync, writeFileSync } from 'node:fs';
-import { dirname } from 'node:path';
+import { appendFileSync, existsSync, readFileSync, truncateSync } from 'node:fs';
 import { parse } from 'csv-parse/sync';
+import { replaceFile, textField } from './csv.mjs';
 
 const NAME = ['scheme', 'settings', 'payload', 'model', 'seed', 'attack'];
 const NUMBERS = ['ber', 'unread', 'claim', 'vertices', 'capacity', 'carriers', 'hausdorff', 'rms', 'max', 'snr', 'psnr', 'normals', 'msdm2'];
 export const COLUMNS = [...NAME, 'outcome', ...NUMBERS, 'note'];
+const HEAD = `${COLUMNS.join(',')}\n`;
 
 const nameOf = (row) => NAME.map((column) => row[column]).join('\n');
 
 const placeOf = ({ scheme, model }) => `${scheme}\n${model}`;
 
-const quoted = (text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
-
 function fieldOf(value) {
   if (value === undefined || value === null) return '';
   if (typeof value === 'number') return String(Number(value.toPrecision(5)));
-  return quoted(String(value).replace(/\s+/g, ' '));
+  return textField(String(value));
 }
 
 const lineOf = (row) => `${COLUMNS.map((column) => fieldOf(row[column])).join(',')}\n`;
@@ -83,10 +82,7 @@ export class Rows {
     const line = lineOf(row);
     const [record] = parse(line, { columns: COLUMNS });
     this.#keep(rowFrom(record, this.#path));
-    if (!existsSync(this.#path)) {
-      mkdirSync(dirname(this.#path), { recursive: true });
-      writeFileSync(this.#path, `${COLUMNS.join(',')}\n`);
-    }
+    if (!existsSync(this.#path)) replaceFile(this.#path, HEAD);
     appendFileSync(this.#path, line);
     ++this.added;
   }
@@ -104,8 +100,10 @@ export class Rows {
   forget(test) {
     const kept = this.#rows.filter((row) => !test(row));
     if (kept.length === this.#rows.length) return;
-    this.#rows = kept;
-    this.#names = new Set(kept.map(nameOf));
+    this.#rows = [];
+    this.#names.clear();
+    this.#places.clear();
+    for (const row of kept) this.#keep(row);
     this.#write();
   }
 
@@ -117,7 +115,6 @@ export class Rows {
   }
 
   #write() {
-    writeFileSync(`${this.#path}.new`, `${COLUMNS.join(',')}\n${this.#rows.map(lineOf).join('')}`);
-    renameSync(`${this.#path}.new`, this.#path);
+    replaceFile(this.#path, HEAD + this.#rows.map(lineOf).join(''));
   }
 }

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Heat maps of how many marks came back: by tool, and by affine map.
+import { readings } from '../cells.mjs';
 import * as fig10 from '../experiments/fig10.mjs';
 import { wasMeasured } from '../models.mjs';
 import { figure, htmlTable } from './figure.mjs';
 import { plot } from './plot.mjs';
 import { whyNothing } from './statistics.mjs';
 
-const isTrial = ({ outcome }) => outcome !== 'refused' && outcome !== 'failed';
-
 /** { text, share }: how many were read exactly, of how many; "+n" more were recognised. */
 function survived(rows) {
-  const trials = rows.filter(isTrial);
+  const trials = readings(rows);
   if (trials.length === 0) return { text: whyNothing(rows), share: null, trials: 0 };
   const count = (outcome) => trials.filter((row) => row.outcome === outcome).length;
   const exact = count('exact'),
