@@ -35,7 +35,6 @@ namespace {
 constexpr std::uint32_t kSpacing = 9;
 constexpr std::size_t kSmallest = 24, kLargest = 800;  // vertices of a patch that carries
 constexpr int kRounds = 4;
-constexpr std::size_t kPilots = 16;
 
 struct Spectrum {
   Patch patch;
@@ -138,7 +137,7 @@ class Cayre final : public WeldedPeer {
         Eigen::MatrixX3d change = Eigen::MatrixX3d::Zero(coefficients.rows(), 3);
         for (Eigen::Index f = firstFrequency(spectrum, work.values[0]); f < coefficients.rows(); ++f) {
           const Middle middle = middleOf(coefficients.row(f));
-          const bool one = written[work.bits.bitAt(carrier(spectrum, f))] != 0;
+          const bool one = work.bits.held(written, carrier(spectrum, f));
           ++mark.carriers;
           if ((middle.excess > 0) == one) continue;
           change(f, middle.axis) = -2 * middle.excess;
@@ -170,8 +169,7 @@ class Cayre final : public WeldedPeer {
       }
     }
     votes.add(*std::max_element(senses.begin(), senses.end(), [&](const BitVotes& a, const BitVotes& b) {
-      return a.clearness() * a.agreement(work.bits.count() - kPilots) <
-             b.clearness() * b.agreement(work.bits.count() - kPilots);
+      return a.clearness() < b.clearness();
     }));
   }
 };

@@ -128,7 +128,7 @@ void Cho::write(const Work& work, const Bits& written, std::vector<double>& move
     bool changed = false;
     for (std::size_t bin = 0; bin < bins.members.size(); ++bin) {
       if (bins.members[bin].empty()) continue;
-      const double power = powerFor(bins, bin, written[work.bits.bitAt(bin)] != 0, work.values[0]);
+      const double power = powerFor(bins, bin, work.bits.held(written, bin), work.values[0]);
       if (power == 1) continue;
       changed = true;
       for (const std::uint32_t v : bins.members[bin]) {

@@ -106,7 +106,7 @@ class Gao final : public WeldedPeer {
 
   void write(const Work& work, const Bits& written, std::vector<double>& moved, TrialMark& mark) const override {
     const std::vector<FourPoints> sets = fourPointSets(Triangles(work.mesh, work.welded), work.welded);
-    const auto one = [&](std::uint64_t carrier) { return written[work.bits.bitAt(carrier)] != 0; };
+    const auto one = [&](std::uint64_t carrier) { return work.bits.held(written, carrier); };
     for (std::size_t i = 0; i < sets.size(); ++i) {
       const auto quad = quadrilateral(moved, sets[i]);
       if (!quad || !quad->ab.usable() || !quad->cd.usable()) continue;

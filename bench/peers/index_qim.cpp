@@ -40,8 +40,6 @@ struct Box {
   }
 };
 
-constexpr std::size_t kPilots = 16;
-
 // A coordinate that does not touch the box, from its lower end.
 struct Inside {
   std::uint32_t vertex;  // of the file
@@ -68,7 +66,7 @@ Ends clearestEnds(const std::vector<Inside>& inside, double room, double step, c
         BitVotes votes(bits);
         for (std::size_t i = 0; i < inside.size(); i += stride)
           votes.add(inside[i].vertex, qimVote(ends.low + ends.scale * inside[i].x, step));
-        const double clear = votes.clearness() * votes.agreement(bits.count() - kPilots);
+        const double clear = votes.clearness();
         if (clear > clearest) {
           clearest = clear;
           best = ends;
@@ -106,7 +104,7 @@ class IndexQim final : public WeldedPeer {
       const std::size_t axis = i % 3;
       const double room = box.high[axis] - box.low[axis], cells = std::floor(room / step);
       if (moved[i] == box.low[axis] || moved[i] == box.high[axis] || cells < 2) continue;
-      const bool one = written[work.bits.bitAt(first[i / 3])] != 0;
+      const bool one = work.bits.held(written, first[i / 3]);
       moved[i] = box.low[axis] + qimNearest(moved[i] - box.low[axis], step, one, 0, cells - 1);
       ++mark.carriers;
     }

@@ -43,18 +43,14 @@ void BitVotes::add(const BitVotes& other) {
 }
 
 double BitVotes::clearness() const {
-  double sum = 0;
-  for (const double votes : sums_) sum += std::abs(votes);
-  return sum;
-}
-
-double BitVotes::agreement(std::size_t first) const {
-  double right = 0, all = 0;
-  for (std::size_t i = first; i < sums_.size(); ++i) {
+  double sum = 0, right = 0, pilots = 0;
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    sum += std::abs(sums_[i]);
+    if (i + kPilots < sums_.size()) continue;
     right += bits_->padded(i, 0) ? sums_[i] : -sums_[i];
-    all += std::abs(sums_[i]);
+    pilots += std::abs(sums_[i]);
   }
-  return all > 0 ? std::max(right / all, 0.0) : 0;
+  return pilots > 0 ? sum * std::max(right / pilots, 0.0) : 0;
 }
 
 TrialReading BitVotes::reading(std::size_t count) const {

@@ -22,6 +22,8 @@ class KeyedBits {
   [[nodiscard]] std::size_t count() const { return order_.size(); }
   /// The payload bit that a carrier holds; all bits take turns.
   [[nodiscard]] std::size_t bitAt(std::uint64_t carrier) const { return order_[carrier % order_.size()]; }
+  /// What a carrier is to hold when `written` is what the bits are to hold (padded).
+  [[nodiscard]] bool held(const Bits& written, std::uint64_t carrier) const { return written[bitAt(carrier)] != 0; }
   /// What is written for a payload's bit: whitened, so that an all-zero logo is as hard to guess as a random one.
   [[nodiscard]] bool padded(std::size_t bit, std::uint8_t value) const { return (value != 0) != (pad_[bit] != 0); }
 
@@ -29,6 +31,9 @@ class KeyedBits {
   std::vector<std::uint32_t> order_;
   Bits pad_;
 };
+
+/// Bits, always 0, that peers with several possible frames write after the payload, to know the right frame when reading.
+constexpr std::size_t kPilots = 16;
 
 /// Sums of votes per payload bit.
 class BitVotes {
@@ -39,10 +44,9 @@ class BitVotes {
   void add(std::uint64_t carrier, double weight);
   /// All votes of another sum over the same bits.
   void add(const BitVotes& other);
-  /// How much the votes agree with each other: the sum over all bits of what is left after opposite votes.
+  /// How far the votes speak for the frame they were read in: what is left of them after opposite ones, as far as the
+  /// last kPilots bits are 0. 0 where these are 1 at least as much.
   [[nodiscard]] double clearness() const;
-  /// How much the bits from `first` on are 0 as written: 1 if every vote says so, 0 if half of them or fewer.
-  [[nodiscard]] double agreement(std::size_t first) const;
   /// Whether no two votes for one bit differed.
   [[nodiscard]] bool unanimous() const { return unanimous_; }
   /// The first `count` bits. Those without a vote are unread. Empty when none has one.

@@ -141,7 +141,7 @@ class Ohbuchi final : public WeldedPeer {
 
   void write(const Work& work, const Bits& written, std::vector<double>& moved, TrialMark& mark) const override {
     visit(work, moved, [&](const Tetrahedron& t, const Slot& slot) {
-      const bool one = written[work.bits.bitAt(t.carrier)] != 0;
+      const bool one = work.bits.held(written, t.carrier);
       const double wanted = qimNearest(std::abs(slot.volume), slot.step, one, 0);
       const double move = (slot.volume < 0 ? -wanted : wanted) - slot.volume;
       const double area = length(slot.base);

@@ -6,6 +6,7 @@
 
 #include "embedder.h"
 #include "quadmark/extract.h"
+#include "release.h"
 #include "sorting.h"
 
 namespace quadmark {
@@ -143,7 +144,7 @@ std::vector<std::uint32_t> Embedder::renumberVertices() {
   }
   for (std::uint32_t number = 0; number < count; ++number) numberOf[oldOf[number]] = number;
 
-  std::vector<std::uint32_t>().swap(cellOf_);
+  release(cellOf_);
   for (PlannedCell& cell : cells_)
     for (std::uint32_t* v : {&cell.quad.a, &cell.quad.b, &cell.quad.c, &cell.quad.d}) *v = numberOf[*v];
   for (VertexSet& set : flatSets_)

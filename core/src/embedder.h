@@ -11,6 +11,7 @@
 #include "quadmark/embed.h"
 #include "quadmark/extract.h"
 #include "quadmark/payload.h"
+#include "release.h"
 
 namespace quadmark {
 
@@ -37,7 +38,7 @@ class PadCache {
   std::uint32_t operator()(std::uint32_t index, std::uint32_t prefix1, std::uint32_t prefix2);
 
   /// Gives the memory back; nothing may be asked afterwards.
-  void release() { std::vector<Entry>().swap(entries_); }
+  void release() { quadmark::release(entries_); }
 
  private:
   static constexpr std::size_t kEntries = 1 << 14;

@@ -123,10 +123,6 @@ class Source {
   Bytes bytes_;
 };
 
-}  // namespace
-
-namespace {
-
 Problem exercise(Bytes file, const Resources& resources, bool searchToo) {
   if (const Result<std::vector<std::string>> uris = externalUris(file); !uris.ok()) {
     if (Problem problem = refusal(uris.error()); !problem.empty()) return problem;

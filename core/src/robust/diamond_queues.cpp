@@ -42,7 +42,6 @@ void DiamondQueues::Queue::prune(std::uint32_t wanted) {
   limit = leastOfBin(bin);
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [&](std::uint64_t pair) { return costBin(pair) >= bin; }),
               pairs.end());
-  reserve(std::max(kept, wanted));
 }
 
 // Half as many more as are kept: few prunings for little memory.
@@ -89,7 +88,9 @@ DiamondQueues::DiamondQueues(const std::vector<Candidate>& candidates, const Del
         Queue& queue = queues_[2 * g + (rowIsFar || std::abs(column - ownColumn) > kNear)];
         if (!(cost < queue.limit)) continue;
         queue.pairs.push_back(std::uint64_t{bitsOf(cost)} << 32 | i);
-        if (queue.pairs.size() == queue.pruneAt) queue.prune(wanted);
+        if (queue.pairs.size() < queue.pruneAt) continue;
+        queue.prune(wanted);
+        queue.reserve(std::max<std::size_t>(queue.pairs.size(), wanted));
       }
     }
   }

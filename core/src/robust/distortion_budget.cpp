@@ -11,11 +11,7 @@ namespace quadmark::robust {
 namespace {
 
 using detail::Point;
-
-Point pointAt(const std::vector<double>& positions, std::uint32_t v) {
-  const double* p = &positions[3 * std::size_t{v}];
-  return {p[0], p[1], p[2]};
-}
+using detail::pointAt;
 
 std::vector<Vec3> unitNormals(const Surface& surface, const std::vector<double>& positions) {
   std::vector<Vec3> normals(surface.vertexCount());
