@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "concat.h"
 #include "embedder.h"
 
 namespace quadmark {
@@ -248,12 +249,11 @@ Status Embedder::refuseUnreadableGrid() const {
   double step = 0;
   for (double half : welded_.halfStep) step = std::max(step, 2 * half);
   return Error{ErrorCode::capacity,
-               "the positions are integers, about " + std::to_string(static_cast<std::uint64_t>(diagonal_ / step)) +
-                   " steps along the model's diagonal, too coarse for this mark: of the " +
-                   std::to_string(pieces_.size()) + " pieces for " + std::to_string(bits_.size()) + " bits, in " +
-                   std::to_string(report_.cells) + " cells, " + std::to_string(unreadPieces_) +
-                   " do not read back from the output or from an affine copy; store the positions as floats, or in " +
-                   "more bits, before marking"};
+               concat("the positions are integers, about ", static_cast<std::uint64_t>(diagonal_ / step),
+                      " steps along the model's diagonal, too coarse for this mark: of the ", pieces_.size(),
+                      " pieces for ", bits_.size(), " bits, in ", report_.cells, " cells, ", unreadPieces_,
+                      " do not read back from the output or from an affine copy; store the positions as floats, or in ",
+                      "more bits, before marking")};
 }
 
 MarkedMesh Embedder::result() {
@@ -280,8 +280,8 @@ MarkedMesh Embedder::result() {
 Result<MarkedMesh> embedMesh(const Mesh& mesh, std::span<const std::uint8_t> bits, const Key& key,
                              const MeshProgress& progress) {
   if (bits.size() != key.params.bitCount())
-    return Error{ErrorCode::badOption, "the payload has " + std::to_string(bits.size()) + " bits, the key is for " +
-                                           std::to_string(key.params.bitCount())};
+    return Error{ErrorCode::badOption,
+                 concat("the payload has ", bits.size(), " bits, the key is for ", key.params.bitCount())};
   return Embedder(mesh, bits, key).run(progress);
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <deque>
 
+#include "concat.h"
 #include "embedder.h"
 #include "sorting.h"
 
@@ -96,14 +97,14 @@ Status Embedder::assign() {
   const auto pieces = static_cast<std::uint32_t>(pieces_.size());
   if (order.size() < pieces) {
     const std::uint64_t capacity = 3ull * codec_.pieceSlot().digitCount() * order.size();
-    return Error{ErrorCode::capacity,
-                 "the payload of " + std::to_string(bits_.size()) + " bits needs " + std::to_string(pieces) +
-                     " cells, the model offers " + std::to_string(order.size()) + " usable ones (" +
-                     std::to_string(capacity) + " bits) of " + std::to_string(cells_.size()) + " found in " +
-                     std::to_string(welded_.vertexCount()) + " vertices" +
-                     (report_.unusableCells == 0 ? std::string()
-                                                 : "; " + std::to_string(report_.unusableCells) +
-                                                       " are too small for the precision of the file's coordinates")};
+    return Error{
+        ErrorCode::capacity,
+        concat(
+            "the payload of ", bits_.size(), " bits needs ", pieces, " cells, the model offers ", order.size(),
+            " usable ones (", capacity, " bits) of ", cells_.size(), " found in ", welded_.vertexCount(), " vertices",
+            (report_.unusableCells == 0
+                 ? std::string()
+                 : concat("; ", report_.unusableCells, " are too small for the precision of the file's coordinates")))};
   }
 
   scarce_ = order.size() < kScarceRepeats * pieces;
@@ -167,8 +168,8 @@ Status Embedder::adoptOrphans(const std::vector<std::uint32_t>& order) {
         break;
       }
     if (!adopted)
-      return Error{ErrorCode::capacity, "piece " + std::to_string(piece) + " of " + std::to_string(copies_.size()) +
-                                            " fits into none of the " + std::to_string(order.size()) + " usable cells"};
+      return Error{ErrorCode::capacity, concat("piece ", piece, " of ", copies_.size(), " fits into none of the ",
+                                               order.size(), " usable cells")};
   }
   return okStatus();
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "concat.h"
 #include "stb.h"
 
 namespace quadmark {
@@ -46,12 +47,11 @@ Status checkChunks(std::span<const std::uint8_t> png) {
     return badImage("the signature is missing, this is not a PNG");
   std::size_t at = kSignature.size();
   for (bool first = true;; first = false) {
-    const std::string place = " at byte " + std::to_string(at);
+    const std::string place = concat(" at byte ", at);
     if (png.size() - at < 12) return badImage("truncated: no room for a chunk" + place);
     const std::size_t length = bigEndian32(&png[at]);
     if (length > png.size() - at - 12)
-      return badImage("chunk" + place + " claims " + std::to_string(length) + " bytes, " +
-                      std::to_string(png.size() - at - 12) + " are left");
+      return badImage(concat("chunk", place, " claims ", length, " bytes, ", png.size() - at - 12, " are left"));
     const auto body = png.subspan(at + 4, 4 + length);
     if (crc32(body) != bigEndian32(&png[at + 8 + length])) return badImage("wrong checksum of the chunk" + place);
     const std::string_view type(reinterpret_cast<const char*>(body.data()), 4);
@@ -60,8 +60,8 @@ Status checkChunks(std::span<const std::uint8_t> png) {
       const std::uint32_t width = bigEndian32(&body[4]), height = bigEndian32(&body[8]);
       if (width == 0 || height == 0) return badImage("the image has no pixels");
       if (width > kMaxImageSide || height > kMaxImageSide)
-        return Error{ErrorCode::tooLarge, "PNG: " + std::to_string(width) + " x " + std::to_string(height) +
-                                              " pixels, at most " + std::to_string(kMaxImageSide) + " each way"};
+        return Error{ErrorCode::tooLarge,
+                     concat("PNG: ", width, " x ", height, " pixels, at most ", kMaxImageSide, " each way")};
       if (width == 1 && height == 1) return badImage("a single pixel is no watermark");
     }
     if (type == "IEND") return okStatus();

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "concat.h"
 #include "number_text.h"
 
 namespace quadmark {
@@ -234,6 +235,12 @@ std::size_t JsonValue::elementCount() const {
   return count;
 }
 
+std::vector<JsonValue> JsonValue::elements() const {
+  std::vector<JsonValue> elements;
+  forEachElement([&](JsonValue value) { elements.push_back(value); });
+  return elements;
+}
+
 std::optional<std::uint64_t> JsonValue::asUnsigned() const {
   if (kind() != Kind::number) return std::nullopt;
   if (const std::optional<std::int64_t> integer = parseInteger(text_)) {
@@ -258,7 +265,7 @@ Result<JsonValue> parseJson(std::string_view text) {
   std::string_view root;
   const std::string_view fault = validator.run(root);
   if (!fault.empty()) {
-    return Error{ErrorCode::badFile, "JSON byte " + std::to_string(validator.position()) + ": " + std::string(fault)};
+    return Error{ErrorCode::badFile, concat("JSON byte ", validator.position(), ": ", fault)};
   }
   return JsonValue(root);
 }

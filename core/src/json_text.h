@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "quadmark/result.h"
 
@@ -47,6 +48,9 @@ class JsonValue {
   }
 
   [[nodiscard]] std::size_t elementCount() const;
+
+  /// Of an array; none for other kinds.
+  [[nodiscard]] std::vector<JsonValue> elements() const;
 
   /// A number without fraction and not below 0, whatever its spelling (12, 12.0, 1.2e1); nothing for any other value.
   [[nodiscard]] std::optional<std::uint64_t> asUnsigned() const;

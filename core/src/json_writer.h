@@ -3,6 +3,7 @@
 #pragma once
 
 #include <concepts>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,15 @@ class JsonWriter {
   void value(double number);
   void value(std::integral auto number) { append(std::to_string(number)); }
   void null() { append("null"); }
+  /// null for nothing.
+  template <class T>
+  void value(const std::optional<T>& content) {
+    if (content) {
+      value(*content);
+    } else {
+      null();
+    }
+  }
 
   template <class T>
   void member(std::string_view name, const T& content) {

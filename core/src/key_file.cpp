@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base64.h"
+#include "concat.h"
 #include "json_text.h"
 #include "json_writer.h"
 #include "number_text.h"
@@ -67,7 +68,7 @@ class Members {
     return member;
   }
   void fail(const char* name, const char* what) {
-    if (problem_.empty()) problem_ = std::string("\"") + name + "\" " + what;
+    if (problem_.empty()) problem_ = concat("\"", name, "\" ", what);
   }
 
   JsonValue object_;
@@ -89,16 +90,16 @@ Result<Key> parseKey(std::string_view text) {
   top.integer("quadmark", keyVersion, true);
   if (!top.problem().empty()) return badKey(top.problem());
   if (keyVersion > kKeyVersion)
-    return Error{ErrorCode::unsupportedVersion, "key file: version " + std::to_string(keyVersion) +
-                                                    " is newer than this program's " + std::to_string(kKeyVersion)};
+    return Error{ErrorCode::unsupportedVersion,
+                 concat("key file: version ", keyVersion, " is newer than this program's ", kKeyVersion)};
   if (keyVersion < 1) return badKey("\"quadmark\" is not 1");
   top.text("scheme", key.scheme, true);
   top.text("secret", secret, true);
   top.text("owner", key.owner);
   if (!top.problem().empty()) return badKey(top.problem());
   if (key.scheme != "paper" && key.scheme != "robust")
-    return badKey("scheme \"" + key.scheme.substr(0, 40) +
-                  "\" is not available in this version (\"paper\" and \"robust\" are)");
+    return badKey(concat("scheme \"", key.scheme.substr(0, 40),
+                         "\" is not available in this version (\"paper\" and \"robust\" are)"));
   const auto bytes = fromBase64(secret);
   if (!bytes || bytes->size() != key.secret.size()) return badKey("\"secret\" is not 32 bytes in base64");
   std::copy(bytes->begin(), bytes->end(), key.secret.begin());

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "concat.h"
+
 namespace quadmark {
 namespace {
 
@@ -13,14 +15,14 @@ Error badMesh(std::string message) {
 
 Status validatePositions(const Mesh& mesh) {
   if (mesh.positions.size() % 3 != 0) {
-    return badMesh("positions: " + std::to_string(mesh.positions.size()) + " numbers are not a multiple of 3");
+    return badMesh(concat("positions: ", mesh.positions.size(), " numbers are not a multiple of 3"));
   }
   if (mesh.vertexCount() > std::numeric_limits<std::uint32_t>::max()) {
     return badMesh("positions: more vertices than 32-bit indices can name");
   }
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (!std::isfinite(mesh.positions[i])) {
-      return badMesh("vertex " + std::to_string(i / 3) + ", component " + "xyz"[i % 3] + " is not finite");
+      return badMesh(concat("vertex ", i / 3, ", component ", "xyz"[i % 3], " is not finite"));
     }
   }
   return okStatus();
@@ -29,17 +31,17 @@ Status validatePositions(const Mesh& mesh) {
 Status validateOffsets(const Mesh& mesh) {
   if (mesh.faceOffsets.empty()) {
     if (mesh.faceVertices.size() % 3 == 0) return okStatus();
-    return badMesh("faces: " + std::to_string(mesh.faceVertices.size()) + " corners are not a multiple of 3");
+    return badMesh(concat("faces: ", mesh.faceVertices.size(), " corners are not a multiple of 3"));
   }
   if (mesh.faceOffsets.front() != 0) return badMesh("face 0 does not begin at corner 0");
   for (std::size_t face = 0; face + 1 < mesh.faceOffsets.size(); ++face) {
     const std::uint64_t begin = mesh.faceOffsets[face];
     const std::uint64_t end = mesh.faceOffsets[face + 1];
-    if (end < begin + 3) return badMesh("face " + std::to_string(face) + " has fewer than 3 corners");
+    if (end < begin + 3) return badMesh(concat("face ", face, " has fewer than 3 corners"));
   }
   if (mesh.faceOffsets.back() != mesh.faceVertices.size()) {
-    return badMesh("faces: the last offset is " + std::to_string(mesh.faceOffsets.back()) + ", there are " +
-                   std::to_string(mesh.faceVertices.size()) + " corners");
+    return badMesh(concat("faces: the last offset is ", mesh.faceOffsets.back(), ", there are ",
+                          mesh.faceVertices.size(), " corners"));
   }
   return okStatus();
 }
@@ -52,23 +54,20 @@ Status validate(const Mesh& mesh) {
   const std::size_t vertexCount = mesh.vertexCount();
   for (std::size_t corner = 0; corner < mesh.faceVertices.size(); ++corner) {
     if (mesh.faceVertices[corner] >= vertexCount) {
-      return badMesh("corner " + std::to_string(corner) + ": vertex " + std::to_string(mesh.faceVertices[corner]) +
-                     " of " + std::to_string(vertexCount) + " vertices");
+      return badMesh(
+          concat("corner ", corner, ": vertex ", mesh.faceVertices[corner], " of ", vertexCount, " vertices"));
     }
   }
   if (!mesh.groups.empty() && mesh.groups.size() != vertexCount) {
-    return badMesh("groups: " + std::to_string(mesh.groups.size()) + " entries for " + std::to_string(vertexCount) +
-                   " vertices");
+    return badMesh(concat("groups: ", mesh.groups.size(), " entries for ", vertexCount, " vertices"));
   }
   if (mesh.grids.size() > 250) return badMesh("grids: more than 250");
   if (!mesh.gridOf.empty() && mesh.gridOf.size() != vertexCount) {
-    return badMesh("grids: " + std::to_string(mesh.gridOf.size()) + " entries for " + std::to_string(vertexCount) +
-                   " vertices");
+    return badMesh(concat("grids: ", mesh.gridOf.size(), " entries for ", vertexCount, " vertices"));
   }
   for (std::size_t vertex = 0; vertex < mesh.gridOf.size(); ++vertex) {
     if (mesh.gridOf[vertex] <= mesh.grids.size()) continue;
-    return badMesh("vertex " + std::to_string(vertex) + ": grid " + std::to_string(mesh.gridOf[vertex]) + " of " +
-                   std::to_string(mesh.grids.size()));
+    return badMesh(concat("vertex ", vertex, ": grid ", mesh.gridOf[vertex], " of ", mesh.grids.size()));
   }
   return okStatus();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cstring>
 
+#include "concat.h"
 #include "number_natural.h"
 #include "number_text.h"
 
@@ -119,7 +120,7 @@ std::string layOut(bool negative, const Digits& number) {
     text += '.';
     text.append(number.digits + 1, static_cast<std::size_t>(number.count - 1));
   }
-  return text + 'e' + std::to_string(point - 1);
+  return concat(text, 'e', point - 1);
 }
 
 /// Splits an IEEE number into its stored mantissa bits, `mantissaBits` of them, and the exponent above them.

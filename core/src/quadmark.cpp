@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "concat.h"
 #include "quadmark/adjacency.h"
 #include "quadmark/embed.h"
 #include "quadmark/extract_parts.h"
@@ -63,9 +64,8 @@ Result<std::vector<std::uint8_t>> payloadBits(const EmbedRequest& request) {
   const BitImage& image = *request.image;
   if (image.width != params.width || image.height != params.height ||
       image.bits.size() != std::size_t{image.width} * image.height)
-    return Error{ErrorCode::badImage, "the image is " + std::to_string(image.width) + " x " +
-                                          std::to_string(image.height) + ", the key is for " +
-                                          std::to_string(params.width) + " x " + std::to_string(params.height)};
+    return Error{ErrorCode::badImage, concat("the image is ", image.width, " x ", image.height, ", the key is for ",
+                                             params.width, " x ", params.height)};
   return image.bits;
 }
 
@@ -121,8 +121,7 @@ Status scrambleOrder(std::span<const std::uint8_t> file, const Resources& resour
     marked.bytes = std::move(reordered->bytes);
     for (auto& [uri, bytes] : reordered->resources) marked.resources[uri] = std::move(bytes);
     marked.bytesChanged = countChangedBytes(file, resources, marked);
-    warnings.push_back("the order of the vertices was scrambled (" + std::to_string(moved) + " of " +
-                       std::to_string(vertexCount) + ")");
+    warnings.push_back(concat("the order of the vertices was scrambled (", moved, " of ", vertexCount, ")"));
   } else {
     warnings.push_back("the order of the vertices could not be scrambled");
   }
@@ -187,9 +186,9 @@ Result<ExtractResponse> extract(std::span<const std::uint8_t> file, const Resour
   if (request.expectedId || request.expectedText)
     return Error{ErrorCode::badKey, "the key is of scheme \"paper\": compare with a reference image instead"};
   if (request.reference && (request.reference->width != params.width || request.reference->height != params.height))
-    return Error{ErrorCode::badImage, "the reference is " + std::to_string(request.reference->width) + " x " +
-                                          std::to_string(request.reference->height) + ", the key is for " +
-                                          std::to_string(params.width) + " x " + std::to_string(params.height)};
+    return Error{ErrorCode::badImage,
+                 concat("the reference is ", request.reference->width, " x ", request.reference->height,
+                        ", the key is for ", params.width, " x ", params.height)};
   if (!tell(request.progress, "read", 0)) return cancelled();
   auto model = readModel(file, resources);
   if (!model) return model.error();
@@ -256,7 +255,8 @@ Result<Key> makeKey(const KeyRequest& request) {
   key.scheme = request.scheme;
   if (key.scheme == "robust") return key;
   if (key.scheme != "paper")
-    return Error{ErrorCode::badOption, "scheme \"" + key.scheme.substr(0, 40) + "\" is not available in this version"};
+    return Error{ErrorCode::badOption,
+                 concat("scheme \"", key.scheme.substr(0, 40), "\" is not available in this version")};
   key.params = request.params;
   if (request.chooseDigits) {
     if (key.params.bitCount() == 0) return Error{ErrorCode::badOption, "the key needs the size of the image: width and height"};

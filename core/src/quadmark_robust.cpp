@@ -35,6 +35,14 @@ std::vector<std::string> warningsFor(const Model& model, const MarkedMesh& marke
   return warnings;
 }
 
+std::optional<TextureShift> shiftOf(const PatchedFile& marked, const Resources& resources,
+                                    const std::vector<double>& before) {
+  if (marked.resources.empty()) return textureShift(marked.bytes, resources, before);
+  Resources after = marked.resources;
+  after.insert(resources.begin(), resources.end());  // keeps those that changed
+  return textureShift(marked.bytes, after, before);
+}
+
 std::optional<Payload> expectedOf(const ExtractRequest& request) {
   if (request.reference) return Payload{*request.reference};
   if (request.expectedId) return Payload{*request.expectedId};
@@ -124,12 +132,13 @@ Result<EmbedResponse> embedRobustFile(std::span<const std::uint8_t> file, const 
   auto patched = (*model)->patch(file, resources, marked->embedding.positions);
   if (!patched) return patched.error();
   response.file = std::move(*patched);
+  const std::optional<TextureShift> shift = shiftOf(response.file, resources, mesh.positions);
   std::vector<std::string> warnings = warningsFor(**model, *marked);
   warnings.insert(warnings.end(), response.file.warnings.begin(), response.file.warnings.end());
-  response.reportJson = formatReport(RobustEmbedReport{marked->bits, marked->coded, marked->embedding,
-                                                       request.robust.strength, measured,
-                                                       marked->embedding.largestSlide / diagonal, marked->unattacked, tests,
-                                                       response.file.bytesChanged, warnings});
+  response.reportJson =
+      formatReport(RobustEmbedReport{marked->bits, marked->coded, marked->embedding, request.robust.strength, measured,
+                                     marked->embedding.largestSlide / diagonal, shift, marked->unattacked, tests,
+                                     response.file.bytesChanged, warnings});
   tell(request.progress, "report", 1);
   return response;
 }

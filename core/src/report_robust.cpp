@@ -82,6 +82,16 @@ std::string formatReport(const RobustEmbedReport& r) {
   }
   writeDistortion(json, r.distortion);
   json.member("slideRel", r.slideRel);
+  json.key("textureShift");
+  if (r.textureShift) {
+    json.beginObject();
+    json.member("uv", r.textureShift->uv);
+    json.member("texels", r.textureShift->texels);
+    json.member("place", r.textureShift->place);
+    json.endObject();
+  } else {
+    json.null();
+  }
   json.member("bytesChanged", r.bytesChanged);
   json.member("warnings", r.warnings);
   json.endObject();
@@ -110,12 +120,7 @@ std::string formatReport(const RobustExtractReport& r) {
   }
   if (m.body) json.member("exact", m.body->exact);
   writeId(json, m.id());
-  json.key("text");
-  if (const auto text = m.text()) {
-    json.value(*text);
-  } else {
-    json.null();
-  }
+  json.member("text", m.text());
   if (m.comparison != Comparison::notAsked) {
     json.key("expected");
     json.beginObject();

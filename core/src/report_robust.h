@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "quadmark/image.h"
+#include "quadmark/io/gltf.h"
 #include "quadmark/metrics.h"
 #include "quadmark/robust/embedder.h"
 #include "quadmark/robust/parts.h"
@@ -29,6 +30,7 @@ struct RobustEmbedReport {
   robust::Strength strength;
   const Distortion& distortion;
   double slideRel;  ///< largest displacement along the surface, of the diagonal
+  const std::optional<TextureShift>& textureShift;
   const robust::SelfTest& unattacked;
   const std::vector<robust::SelfTest>& selfTests;  ///< empty unless asked for
   std::uint64_t bytesChanged;

@@ -83,6 +83,8 @@ Problem patch(const Model& model, Bytes file, const Resources& resources) {
   }
   if ((*again)->mesh().positions != moved.positions) return "patched positions read back differently";
   if ((*again)->mesh().faceVertices != moved.faceVertices) return "patched faces read back differently";
+  const std::optional<TextureShift> shift = textureShift(patched->bytes, changed, model.mesh().positions);
+  if (shift && (!(shift->uv >= 0) || !(shift->texels.value_or(0) >= 0))) return "a texture shifts by less than nothing";
   return "";
 }
 

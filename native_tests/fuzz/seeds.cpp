@@ -4,6 +4,7 @@
 #include "fixtures.h"
 #include "io_gltf_matrix.h"
 #include "io_streams.h"
+#include "io_textured.h"
 
 namespace quadmark::test {
 namespace {
@@ -98,6 +99,11 @@ std::vector<FileBytes> gltfSeeds() {
                                   bytesOf(gridGltf("\"uri\":\"data:;base64," + base64(gridGltf().bin) + "\",").json),
                                   manyFeatures()};
   for (FileBytes& file : quantizedAndSparse()) files.push_back(std::move(file));
+  const std::string moved = R"({"index":0,"texCoord":1,"extensions":{"KHR_texture_transform":{"texCoord":0,"scale":[2,0.5]}}})";
+  const std::string inside = R"({"uri":"data:image/png;base64,)" + base64(png()) + R"("})";
+  for (const Textured& spec : {Textured{}, Textured{.component = "ushort", .texture = moved, .compressed = true},
+                               Textured{.component = "uchar", .image = inside, .slot = "sheenColorTexture"}})
+    files.push_back(planeFile(spec, planePositions()));
   files.push_back(DracoGrid{}.glb());
   DracoGrid edgebreaker;
   edgebreaker.json = replaced(replaced(edgebreaker.json, ",\"TEXCOORD_0\":2", ""), ",\"TEXCOORD_0\":1", "");

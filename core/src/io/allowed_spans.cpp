@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "concat.h"
 #include "sorting.h"
 
 namespace quadmark::io {
@@ -54,7 +55,7 @@ Result<std::uint64_t> countDifferences(Bytes before, Bytes after, const AllowedS
     for (std::size_t at = begin; at < begin + length; ++at) {
       if (before[at] == after[at]) continue;
       if (!allowed.contains(at)) {
-        return Error{ErrorCode::internal, "self-check: byte " + std::to_string(at) + " changed but holds no position"};
+        return Error{ErrorCode::internal, concat("self-check: byte ", at, " changed but holds no position")};
       }
       ++count;
     }

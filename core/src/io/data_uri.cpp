@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "data_uri.h"
 
+#include "concat.h"
 #include "json_text.h"
 #include "number_text.h"
 
@@ -109,8 +110,7 @@ Result<std::vector<std::uint8_t>> decodeDataUri(std::string_view spelled, const 
   for (;;) {
     const Base64Reader::Step step = reader.next();
     if (step == Base64Reader::Step::broken) {
-      return badFile(place + ": the data URI's base64 is broken at character " +
-                     std::to_string(begin + reader.begin()));
+      return badFile(concat(place, ": the data URI's base64 is broken at character ", begin + reader.begin()));
     }
     if (step == Base64Reader::Step::end) break;
     quad = (quad << 6) | static_cast<std::uint32_t>(reader.digit());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "concat.h"
 #include "draco_codec.h"
 #include "varint_reader.h"
 
@@ -26,14 +27,14 @@ void skipMetadata(VarintReader& reader) {
 Result<DracoHeader> readDracoHeader(Bytes stream, std::uint64_t memoryLimit, const std::string& place) {
   constexpr std::size_t kFixedBytes = 11;  // magic, version, type, method, flags
   if (stream.size() < kFixedBytes || !isDraco(stream)) return badFile(place + ": this is no Draco data");
-  const std::string version = std::to_string(stream[5]) + "." + std::to_string(stream[6]);
+  const std::string version = concat(stream[5], ".", stream[6]);
   if (version != "2.2") {
-    return unsupportedFile(place + ": Draco bitstream version " + version + ", only 2.2 of meshes is supported");
+    return unsupportedFile(concat(place, ": Draco bitstream version ", version, ", only 2.2 of meshes is supported"));
   }
   if (stream[7] != 1) return unsupportedFile(place + ": the Draco data is a point cloud, it has no triangles");
   DracoHeader header;
   header.isEdgebreaker = stream[8] == 1;
-  if (stream[8] > 1) return badFile(place + ": unknown Draco method " + std::to_string(stream[8]));
+  if (stream[8] > 1) return badFile(concat(place, ": unknown Draco method ", stream[8]));
 
   // 1. Metadata: first of single attributes, each with its id, then of the whole.
   VarintReader reader(stream.subspan(kFixedBytes));
@@ -64,7 +65,7 @@ Result<DracoHeader> readDracoHeader(Bytes stream, std::uint64_t memoryLimit, con
   constexpr std::uint64_t kTableBytesPerFace = 12, kLimitsForAllTables = 4;
   const std::uint64_t tableBytes = header.faces * kTableBytesPerFace;
   if (tableBytes > memoryLimit || tableBytes * (attributeTables + 1) > kLimitsForAllTables * memoryLimit) {
-    return tooLarge(place + ": " + std::to_string(header.faces) + " triangles are too many for a file of this size");
+    return tooLarge(concat(place, ": ", header.faces, " triangles are too many for a file of this size"));
   }
   return header;
 }

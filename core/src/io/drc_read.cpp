@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "quadmark/io/drc.h"
-
 #include <cmath>
 
+#include "concat.h"
 #include "draco_codec.h"
 #include "gltf_buffers.h"
+#include "quadmark/io/drc.h"
 
 namespace quadmark {
 namespace io {
@@ -17,7 +17,7 @@ class DrcModel final : public Model {
     Result<DracoMesh> decoded = decodeDraco(file, {DracoAttribute{}}, limit, "Draco");
     if (!decoded) return decoded.error();
     info_.format = FileFormat::drc;
-    info_.variant = "Draco " + std::to_string(file[5]) + "." + std::to_string(file[6]);
+    info_.variant = concat("Draco ", file[5], ".", file[6]);
     info_.meshes = info_.primitives = 1;
     if (decoded->pointCount > limit / (3 * sizeof(double))) return tooLarge("Draco: too many points for this file");
     mesh_.faceVertices = std::move(decoded->indices);
@@ -26,7 +26,7 @@ class DrcModel final : public Model {
     for (std::size_t i = 0; i < mesh_.positions.size(); ++i) {
       mesh_.positions[i] = load<float>(&values[sizeof(float) * i]);
       if (std::isfinite(mesh_.positions[i])) continue;
-      return badMesh("Draco: point " + std::to_string(i / 3) + ", component " + "xyz"[i % 3] + " is not finite");
+      return badMesh(concat("Draco: point ", i / 3, ", component ", "xyz"[i % 3], " is not finite"));
     }
     if (mesh_.faceCount() == 0) return badMesh("Draco: the file has no triangles");
     return boundingDiagonal(mesh_) > 0 ? okStatus() : Status(badMesh("Draco: all used points coincide"));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "concat.h"
 #include "sorting.h"
 
 namespace quadmark::io {
@@ -155,13 +156,13 @@ class PlaceIndex {
 std::string findConflict(const GltfDocument& document, const std::vector<std::uint32_t>& sameBuffer,
                          const PlaceIndex& index, const PositionArrays& result) {
   const auto message = [](std::uint32_t position, const std::string& other) {
-    return "accessor " + std::to_string(position) + " (POSITION) shares bytes with " + other;
+    return concat("accessor ", position, " (POSITION) shares bytes with ", other);
   };
   for (std::uint32_t i = 0; i < document.accessors.size(); ++i) {
     const GltfAccessor& accessor = document.accessors[i];
-    const std::string other = "accessor " + std::to_string(i) + ", which holds other data";
+    const std::string other = concat("accessor ", i, ", which holds other data");
     if (result.windowOf[i] != kNone) {
-      if (accessor.usedOtherwise) return message(i, "itself under another name (" + other + ")");
+      if (accessor.usedOtherwise) return message(i, concat("itself under another name (", other, ")"));
       continue;
     }
     if (accessor.view == kNone || accessor.count == 0 || document.views[accessor.view].buffer == kNone) continue;
@@ -180,7 +181,7 @@ std::string findConflict(const GltfDocument& document, const std::vector<std::ui
     };
     const Layout* array = sharing(sparse.indicesView, sparse.indicesOffset, componentBytes(sparse.indicesType));
     if (array == nullptr && !isPosition) array = sharing(sparse.valuesView, sparse.valuesOffset, accessor.elementBytes());
-    if (array != nullptr) return message(array->accessor, "the sparse part of accessor " + std::to_string(i));
+    if (array != nullptr) return message(array->accessor, concat("the sparse part of accessor ", i));
   }
   const auto inRange = [&](std::uint32_t buffer, std::uint64_t start, std::uint64_t length) -> const Layout* {
     if (buffer == kNone || length == 0) return nullptr;
@@ -197,7 +198,7 @@ std::string findConflict(const GltfDocument& document, const std::vector<std::ui
     return inRange(v.buffer, v.byteOffset, v.byteLength);
   };
   const auto holds = [&](const Layout* array, std::uint32_t view, const char* what) {
-    return message(array->accessor, "bufferView " + std::to_string(view) + ", which holds " + what);
+    return message(array->accessor, concat("bufferView ", view, ", which holds ", what));
   };
   for (const std::uint32_t view : document.imageViews)
     if (const Layout* array = inView(view)) return holds(array, view, "an image");
@@ -229,9 +230,9 @@ Result<PositionArrays> collectPositionArrays(const GltfDocument& document,
   for (std::size_t i = 0; i < index.arrays().size() && result.conflict.empty(); ++i) {
     const Layout& array = index.arrays()[i];
     if (const Layout* other = index.findSharing(array, i)) {
-      result.conflict = "accessor " + std::to_string(std::min(array.accessor, other->accessor)) + " and accessor " +
-                        std::to_string(std::max(array.accessor, other->accessor)) +
-                        " hold positions that overlap with different layouts";
+      result.conflict =
+          concat("accessor ", std::min(array.accessor, other->accessor), " and accessor ",
+                 std::max(array.accessor, other->accessor), " hold positions that overlap with different layouts");
     }
   }
 

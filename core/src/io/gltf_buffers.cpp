@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf_buffers.h"
 
+#include "concat.h"
 #include "data_uri.h"
 #include "number_text.h"
 
@@ -30,7 +31,7 @@ Resources::const_iterator findResource(const Resources& resources, const std::st
 
 Result<BufferPlace> placeBuffer(const GltfBuffer& buffer, std::size_t index, const GltfContainer& container, Bytes file,
                                 const Resources& resources) {
-  const std::string name = "buffer " + std::to_string(index);
+  const std::string name = concat("buffer ", index);
   BufferPlace place;
   place.byteLength = buffer.byteLength;
   if (buffer.meshopt) {
@@ -53,7 +54,7 @@ Result<BufferPlace> placeBuffer(const GltfBuffer& buffer, std::size_t index, con
   }
   const std::string uri = unescapeJson(spelled);
   const auto found = findResource(resources, uri);
-  if (found == resources.end()) return badFile(name + ": the file " + quoted(uri) + " was not given");
+  if (found == resources.end()) return badFile(concat(name, ": the file ", quoted(uri), " was not given"));
   place.source = BufferPlace::Source::resource;
   place.key = found->first;
   return place;
@@ -70,9 +71,9 @@ BufferBytes decodedBuffer(std::vector<std::uint8_t> bytes) {
 Result<BufferBytes> decodeView(const BufferPlace& place, const std::vector<BufferBytes>& buffers,
                                std::uint64_t decodedBytes, std::uint64_t limit) {
   const MeshoptSource& source = place.meshopt;
-  const std::string name = "bufferView " + std::to_string(source.view);
+  const std::string name = concat("bufferView ", source.view);
   if (decodedBytes > limit) {
-    return tooLarge(name + ": the compressed data would take more than " + std::to_string(limit) + " bytes");
+    return tooLarge(concat(name, ": the compressed data would take more than ", limit, " bytes"));
   }
   const Bytes stream = buffers[source.buffer].bytes.subspan(static_cast<std::size_t>(source.byteOffset),
                                                             static_cast<std::size_t>(source.byteLength));
@@ -104,7 +105,7 @@ Result<std::vector<BufferPlace>> placeBuffers(const GltfDocument& document, cons
 
 Result<BufferBytes> openBuffer(const BufferPlace& place, std::size_t index, const GltfContainer& container, Bytes file,
                                const Resources& resources) {
-  const std::string name = "buffer " + std::to_string(index);
+  const std::string name = concat("buffer ", index);
   BufferBytes buffer;
   std::string source;
   switch (place.source) {
@@ -118,7 +119,7 @@ Result<BufferBytes> openBuffer(const BufferPlace& place, std::size_t index, cons
       break;
     case BufferPlace::Source::resource: {
       const auto found = resources.find(place.key);
-      if (found == resources.end()) return badFile(name + ": the file " + quoted(place.key) + " was not given");
+      if (found == resources.end()) return badFile(concat(name, ": the file ", quoted(place.key), " was not given"));
       buffer.bytes = found->second;
       source = quoted(place.key);
       break;
@@ -134,8 +135,8 @@ Result<BufferBytes> openBuffer(const BufferPlace& place, std::size_t index, cons
     }
   }
   if (buffer.bytes.size() < place.byteLength) {
-    return badFile(name + ": byteLength is " + std::to_string(place.byteLength) + ", " + source + " has " +
-                   std::to_string(buffer.bytes.size()) + " bytes");
+    return badFile(
+        concat(name, ": byteLength is ", place.byteLength, ", ", source, " has ", buffer.bytes.size(), " bytes"));
   }
   return buffer;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gltf_container.h"
 
+#include "concat.h"
+
 namespace quadmark::io {
 namespace {
 
@@ -23,27 +25,24 @@ Result<GltfContainer> openGltf(Bytes file) {
   if (file.size() < kGlbHeaderBytes) return badFile("GLB: the file ends inside its 12-byte header");
   const std::uint32_t version = load<std::uint32_t>(&file[4]);
   const std::uint64_t length = load<std::uint32_t>(&file[8]);
-  if (version != 2) return unsupportedFile("GLB version " + std::to_string(version) + "; only version 2 is supported");
+  if (version != 2) return unsupportedFile(concat("GLB version ", version, "; only version 2 is supported"));
   if (length > file.size()) {
-    return badFile("GLB: the header says " + std::to_string(length) + " bytes, the file has " +
-                   std::to_string(file.size()));
+    return badFile(concat("GLB: the header says ", length, " bytes, the file has ", file.size()));
   }
-  if (length < kGlbHeaderBytes) return badFile("GLB: the header says " + std::to_string(length) + " bytes");
+  if (length < kGlbHeaderBytes) return badFile(concat("GLB: the header says ", length, " bytes"));
   if (length < file.size()) {
-    container.warnings.push_back(std::to_string(file.size() - length) +
-                                 " bytes after the GLB's end are kept as they are");
+    container.warnings.push_back(concat(file.size() - length, " bytes after the GLB's end are kept as they are"));
   }
 
   std::uint64_t at = kGlbHeaderBytes;
   for (std::uint64_t chunk = 0; at < length; ++chunk) {
-    const std::string place = "GLB chunk " + std::to_string(chunk);
+    const std::string place = concat("GLB chunk ", chunk);
     if (length - at < kGlbChunkHeaderBytes) return badFile(place + ": the file ends inside the chunk's header");
     const std::uint64_t chunkLength = load<std::uint32_t>(file.data() + at);
     const std::uint32_t type = load<std::uint32_t>(file.data() + at + 4);
     at += kGlbChunkHeaderBytes;
     if (chunkLength > length - at) {
-      return badFile(place + ": " + std::to_string(chunkLength) + " bytes are claimed, " + std::to_string(length - at) +
-                     " are left");
+      return badFile(concat(place, ": ", chunkLength, " bytes are claimed, ", length - at, " are left"));
     }
     if (chunk == 0) {
       if (type != kJsonChunk) return badFile("GLB: the first chunk is not JSON");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "concat.h"
 #include "gltf_bounds.h"
 
 namespace quadmark::io {
@@ -45,8 +46,8 @@ std::string boundsText(Bytes positions, std::uint32_t componentType) {
 
 Decompression::Decompression(GltfEdits& edits) : edits_(edits) {
   const JsonValue root = edits.root();
-  root.find("bufferViews").forEachElement([&](JsonValue view) { views_.push_back(view); });
-  root.find("accessors").forEachElement([&](JsonValue accessor) { accessors_.push_back(accessor); });
+  views_ = root.find("bufferViews").elements();
+  accessors_ = root.find("accessors").elements();
   root.find("meshes").forEachElement([&](JsonValue mesh) {
     mesh.find("primitives").forEachElement([&](JsonValue primitive) {
       if (dracoOf(primitive)) dracoPrimitives_.push_back(primitive);
@@ -136,7 +137,7 @@ Result<std::vector<Decompression::Column>> Decompression::columnsOf(const std::v
         columns.push_back(column);
       } else if (known->attribute.id != column.attribute.id || known->type != column.type ||
                  known->attribute.componentType != column.attribute.componentType) {
-        status = unsupportedFile(stream.place + ": primitives read " + name + " from its Draco data in two ways");
+        status = unsupportedFile(concat(stream.place, ": primitives read ", name, " from its Draco data in two ways"));
       }
     });
   }
@@ -177,10 +178,11 @@ Status Decompression::replaceStream(const DracoStream& stream, Bytes bytes, Byte
 
   // 2. Plain accessors of it.
   std::map<std::string, std::string> accessorOf;  // attribute -> index
-  const auto count = [](std::uint64_t elements) { return R"(,"count":)" + std::to_string(elements) + R"(,"type":)"; };
-  accessorOf["POSITION"] = appendAccessor(positions, 3 * componentBytes(stream.componentType), stream.componentType,
-                                          (stream.normalized ? R"(,"normalized":true)" : "") + count(mesh->pointCount) +
-                                              R"("VEC3")" + boundsText(positions, stream.componentType));
+  const auto count = [](std::uint64_t elements) { return concat(R"(,"count":)", elements, R"(,"type":)"); };
+  accessorOf["POSITION"] =
+      appendAccessor(positions, 3 * componentBytes(stream.componentType), stream.componentType,
+                     concat((stream.normalized ? R"(,"normalized":true)" : ""), count(mesh->pointCount), R"("VEC3")",
+                            boundsText(positions, stream.componentType)));
   for (std::size_t i = 0; i < columns->size(); ++i) {
     const Column& column = (*columns)[i];
     std::string members;
@@ -230,9 +232,9 @@ std::vector<std::string> Decompression::finish() {
     const std::string& extension = entry.first;
     const std::uint64_t count = entry.second;
     const std::string things = extension == kDracoExtension ? "primitive" : "bufferView";
-    warnings.push_back("the data of " + std::to_string(count) + " " + things + (count == 1 ? "" : "s") +
-                       " with marked positions is plain now, no longer compressed by " + extension +
-                       "; compress the marked file anew if its size matters, with as many bits as before");
+    warnings.push_back(concat("the data of ", count, " ", things, count == 1 ? "" : "s",
+                              " with marked positions is plain now, no longer compressed by ", extension,
+                              "; compress the marked file anew if its size matters, with as many bits as before"));
     if (isStillUsed(extension)) continue;
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
       const JsonValue names = edits_.root().find(list);

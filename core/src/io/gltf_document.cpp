@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "concat.h"
 #include "gltf_fields.h"
 #include "gltf_sections.h"
 
@@ -13,17 +14,13 @@ constexpr std::uint64_t kMostEntries = std::uint64_t{1} << 20;
 constexpr std::uint64_t kMostPrimitives = std::uint64_t{1} << 18;
 constexpr std::uint64_t kLargestSize = 0xffffffff;  // of anything counted in bytes or elements, on every platform
 
-std::string number(std::uint64_t value) {
-  return std::to_string(value);
-}
-
 Status checkEntryCount(const char* what, std::uint64_t count, std::uint64_t most = kMostEntries) {
   if (count <= most) return okStatus();
-  return tooLarge("glTF: more than " + number(most) + " " + what);
+  return tooLarge(concat("glTF: more than ", most, " ", what));
 }
 
 Status readDraco(JsonValue extension, GltfPrimitive& primitive, GltfDocument& document) {
-  const std::string place = primitive.place() + " " + kDracoExtension;
+  const std::string place = concat(primitive.place(), " ", kDracoExtension);
   if (document.views.empty()) return badFile(place + ": the file has no bufferViews");
   FieldReader fields(extension, place);
   FieldReader attributes(extension.find("attributes"), place + " attributes");
@@ -35,6 +32,16 @@ Status readDraco(JsonValue extension, GltfPrimitive& primitive, GltfDocument& do
   document.views[draco.view].needed = true;
   primitive.draco = draco;
   return okStatus();
+}
+
+void readTextureCoordinates(JsonValue json, GltfPrimitive& primitive, GltfDocument& document) {
+  primitive.material = static_cast<std::uint32_t>(json.find("material").asUnsigned().value_or(kNone));
+  for (std::size_t set = 0; set < primitive.textureCoordinates.size(); ++set) {
+    const auto accessor = json.find("attributes").find(concat("TEXCOORD_", set)).asUnsigned();
+    if (!accessor || *accessor >= document.accessors.size()) continue;
+    primitive.textureCoordinates[set] = static_cast<std::uint32_t>(*accessor);
+    document.accessors[primitive.textureCoordinates[set]].needed = true;
+  }
 }
 
 Status readPrimitive(JsonValue json, GltfPrimitive primitive, GltfDocument& document) {
@@ -49,7 +56,7 @@ Status readPrimitive(JsonValue json, GltfPrimitive primitive, GltfDocument& docu
     return okStatus();
   }
   if (!primitive.hasTriangles()) {
-    document.warn(primitive.place() + ": " + primitiveModeName(primitive.mode) + " are passed through");
+    document.warn(concat(primitive.place(), ": ", primitiveModeName(primitive.mode), " are passed through"));
   }
   if (document.accessors.empty()) return badFile(primitive.place() + ": the file has no accessors");
   FieldReader positionField(attributes, primitive.place());
@@ -63,6 +70,9 @@ Status readPrimitive(JsonValue json, GltfPrimitive primitive, GltfDocument& docu
   } else if (primitive.hasTriangles() && json.find("indices")) {
     primitive.indices = static_cast<std::uint32_t>(fields.required("indices", lastAccessor));
     if (fields.error()) return *fields.error();
+  }
+  if (document.withTextures && primitive.hasTriangles() && !primitive.draco) {
+    readTextureCoordinates(json, primitive, document);
   }
   document.primitives.push_back(primitive);
   return checkEntryCount("primitives", document.primitives.size(), kMostPrimitives);
@@ -110,7 +120,7 @@ GltfSparse readSparse(JsonValue json, const std::string& accessor, const GltfDoc
   for (const FieldReader* part : {&own, &indices, &values}) fields.adopt(*part);
   for (std::uint32_t* view : {&sparse.indicesView, &sparse.valuesView}) {
     if (*view < document.views.size()) continue;
-    fields.fail("sparse refers to bufferView " + number(*view) + " of " + number(document.views.size()));
+    fields.fail(concat("sparse refers to bufferView ", *view, " of ", document.views.size()));
     *view = kNone;
   }
   return sparse;
@@ -121,7 +131,7 @@ Status readAccessors(const GltfSections& sections, GltfDocument& document) {
   Status status = okStatus();
   sections.accessors.forEachElement([&](JsonValue json) {
     GltfAccessor& accessor = document.accessors[index];
-    const std::string place = "accessor " + number(index);
+    const std::string place = concat("accessor ", index);
     FieldReader fields(json, place);
     ++index;
     accessor.normalized = json.find("normalized").text() == "true";
@@ -134,12 +144,12 @@ Status readAccessors(const GltfSections& sections, GltfDocument& document) {
     accessor.components = componentsOfType(type);
     if (accessor.components == 0) fields.fail("has the unknown type " + quoted(type));
     if (accessor.componentType < 5120 || accessor.componentType > 5126 || accessor.componentType == 5124) {
-      fields.fail("has the unknown componentType " + number(accessor.componentType));
+      fields.fail(concat("has the unknown componentType ", accessor.componentType));
     }
     if (json.find("bufferView")) {
       const std::uint64_t view = fields.required("bufferView", kLargestSize);
       if (view >= document.views.size()) {
-        fields.fail("refers to bufferView " + number(view) + " of " + number(document.views.size()));
+        fields.fail(concat("refers to bufferView ", view, " of ", document.views.size()));
       }
       if (!fields.error()) accessor.view = static_cast<std::uint32_t>(view);
     }
@@ -161,7 +171,7 @@ Status readCompression(JsonValue extension, std::uint32_t index, std::size_t fil
   constexpr std::string_view kModes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
   constexpr std::string_view kFilters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};
   GltfView& view = document.views[index];
-  FieldReader fields(extension, "bufferView " + number(index) + " " + view.compression);
+  FieldReader fields(extension, concat("bufferView ", index, " ", view.compression));
   MeshoptSource source;
   source.view = index;
   const std::uint64_t buffer = fields.required("buffer", kLargestSize);
@@ -171,21 +181,21 @@ Status readCompression(JsonValue extension, std::uint32_t index, std::size_t fil
   source.layout.byteStride = static_cast<std::uint32_t>(fields.required("byteStride", 256));
   const auto choose = [&](const char* name, const auto& choices, std::string_view chosen) -> std::size_t {
     const auto found = std::find(std::begin(choices), std::end(choices), chosen);
-    if (found == std::end(choices)) fields.fail("has the unknown " + std::string(name) + " " + quoted(chosen));
+    if (found == std::end(choices)) fields.fail(concat("has the unknown ", name, " ", quoted(chosen)));
     return static_cast<std::size_t>(found - std::begin(choices));
   };
   const JsonValue filter = extension.find("filter");
   source.layout.mode = static_cast<MeshoptMode>(choose("mode", kModes, extension.find("mode").asString()));
   source.layout.filter = static_cast<MeshoptFilter>(choose("filter", kFilters, filter ? filter.asString() : "NONE"));
   if (buffer >= fileBuffers) {
-    fields.fail("refers to buffer " + number(buffer) + " of " + number(fileBuffers));
+    fields.fail(concat("refers to buffer ", buffer, " of ", fileBuffers));
   } else if (const std::uint64_t length = document.buffers[static_cast<std::size_t>(buffer)].byteLength;
              source.byteOffset > length || source.byteLength > length - source.byteOffset) {
-    fields.fail("exceeds buffer " + number(buffer) + " (" + number(length) + " bytes)");
+    fields.fail(concat("exceeds buffer ", buffer, " (", length, " bytes)"));
   }
   const std::uint64_t decodedBytes = source.layout.count * source.layout.byteStride;
   if (decodedBytes != view.byteLength) {
-    fields.fail("decodes to " + number(decodedBytes) + " bytes, the view has " + number(view.byteLength));
+    fields.fail(concat("decodes to ", decodedBytes, " bytes, the view has ", view.byteLength));
   }
   if (fields.error()) return *fields.error();
   source.buffer = static_cast<std::uint32_t>(buffer);
@@ -204,21 +214,21 @@ Status readViews(const GltfSections& sections, GltfDocument& document) {
   Status status = okStatus();
   sections.bufferViews.forEachElement([&](JsonValue json) {
     GltfView& view = document.views[index];
-    FieldReader fields(json, "bufferView " + number(index));
+    FieldReader fields(json, concat("bufferView ", index));
     ++index;
     const std::uint64_t buffer = fields.required("buffer", kLargestSize);
     view.byteOffset = fields.optional("byteOffset", 0, kLargestSize);
     view.byteLength = fields.required("byteLength", kLargestSize);
     view.byteStride = static_cast<std::uint32_t>(fields.optional("byteStride", 0, kLargestSize));
     if (view.byteStride > 252 || view.byteStride % 4 != 0) {
-      fields.fail("has the byteStride " + number(view.byteStride) + ", expected a multiple of 4 up to 252");
+      fields.fail(concat("has the byteStride ", view.byteStride, ", expected a multiple of 4 up to 252"));
     }
     if (buffer >= fileBuffers) {
-      fields.fail("refers to buffer " + number(buffer) + " of " + number(fileBuffers));
+      fields.fail(concat("refers to buffer ", buffer, " of ", fileBuffers));
     } else if (const std::uint64_t length = document.buffers[static_cast<std::size_t>(buffer)].byteLength;
                view.byteOffset > length || view.byteLength > length - view.byteOffset) {
-      fields.fail("with byteOffset " + number(view.byteOffset) + " and byteLength " + number(view.byteLength) +
-                  " exceeds buffer " + number(buffer) + " (" + number(length) + " bytes)");
+      fields.fail(concat("with byteOffset ", view.byteOffset, " and byteLength ", view.byteLength, " exceeds buffer ",
+                         buffer, " (", length, " bytes)"));
     }
     JsonValue compression;
     for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
@@ -244,10 +254,10 @@ Status readNodes(const GltfSections& sections, GltfDocument& document) {
     const auto node = static_cast<std::uint32_t>(document.nodeCount++);
     const JsonValue mesh = json.find("mesh");
     if (!mesh || !status) return;
-    FieldReader fields(json, "node " + number(node));
+    FieldReader fields(json, concat("node ", node));
     const std::uint64_t index = fields.required("mesh", kLargestSize);
     if (index >= document.meshCount) {
-      fields.fail("refers to mesh " + number(index) + " of " + number(document.meshCount));
+      fields.fail(concat("refers to mesh ", index, " of ", document.meshCount));
     }
     if (fields.error()) {
       status = *fields.error();
@@ -263,7 +273,7 @@ void readBuffers(const GltfSections& sections, GltfDocument& document) {
   std::size_t index = 0;
   sections.buffers.forEachElement([&](JsonValue json) {
     GltfBuffer& buffer = document.buffers[index];
-    FieldReader fields(json, "buffer " + number(index));
+    FieldReader fields(json, concat("buffer ", index));
     ++index;
     buffer.byteLength = fields.required("byteLength", kLargestSize);
     const JsonValue uri = json.find("uri");
@@ -278,30 +288,30 @@ void readBuffers(const GltfSections& sections, GltfDocument& document) {
 Status checkElements(const GltfDocument& document, std::uint32_t index) {
   const GltfAccessor& accessor = document.accessors[index];
   const GltfView& view = document.views[accessor.view];
-  const std::string place = "accessor " + number(index);
+  const std::string place = concat("accessor ", index);
   if (accessor.count == 0) return badFile(place + ": count is 0");
   const std::uint64_t elementBytes = accessor.elementBytes();
   const std::uint64_t stride = view.byteStride == 0 ? elementBytes : view.byteStride;
   if (stride < elementBytes) {
-    return badFile(place + ": elements of " + number(elementBytes) + " bytes overlap at the byteStride " +
-                   number(stride) + " of bufferView " + number(accessor.view));
+    return badFile(concat(place, ": elements of ", elementBytes, " bytes overlap at the byteStride ", stride,
+                          " of bufferView ", accessor.view));
   }
   const bool fits = accessor.byteOffset <= view.byteLength && elementBytes <= view.byteLength - accessor.byteOffset &&
                     accessor.count - 1 <= (view.byteLength - accessor.byteOffset - elementBytes) / stride;
   if (fits) return okStatus();
-  return badFile(place + ": byteOffset " + number(accessor.byteOffset) + " with " + number(accessor.count) +
-                 " elements exceeds bufferView " + number(accessor.view) + " (" + number(view.byteLength) + " bytes)");
+  return badFile(concat(place, ": byteOffset ", accessor.byteOffset, " with ", accessor.count,
+                        " elements exceeds bufferView ", accessor.view, " (", view.byteLength, " bytes)"));
 }
 
 /// Compressed positions are checked when they are decoded; their accessor only says what they become.
 Status checkDraco(const GltfDocument& document, const GltfPrimitive& primitive) {
   const GltfAccessor& position = document.accessors[primitive.position];
   if (!document.views[primitive.draco->view].compression.empty()) {
-    return unsupportedFile(primitive.place() + " " + kDracoExtension + ": its bufferView is compressed again");
+    return unsupportedFile(concat(primitive.place(), " ", kDracoExtension, ": its bufferView is compressed again"));
   }
   if (position.components == 3 && position.componentType != kGltfUint32) return okStatus();
-  return unsupportedFile(primitive.place() + " POSITION (accessor " + number(primitive.position) +
-                         "): is not a VEC3 of floats or of 8- or 16-bit integers");
+  return unsupportedFile(concat(primitive.place(), " POSITION (accessor ", primitive.position,
+                                "): is not a VEC3 of floats or of 8- or 16-bit integers"));
 }
 
 /// One of the two arrays of a sparse accessor: tightly packed elements in a view.
@@ -309,19 +319,19 @@ Status checkPacked(const GltfDocument& document, const std::string& place, std::
                    std::uint64_t offset, std::uint64_t count, std::uint64_t elementBytes) {
   const GltfView& view = document.views[viewIndex];
   if (view.byteStride != 0 && view.byteStride != elementBytes) {
-    return badFile(place + ": bufferView " + number(viewIndex) + " has a byteStride");
+    return badFile(concat(place, ": bufferView ", viewIndex, " has a byteStride"));
   }
   if (offset <= view.byteLength && count <= (view.byteLength - offset) / elementBytes) return okStatus();
-  return badFile(place + ": byteOffset " + number(offset) + " with " + number(count) + " elements exceeds bufferView " +
-                 number(viewIndex) + " (" + number(view.byteLength) + " bytes)");
+  return badFile(concat(place, ": byteOffset ", offset, " with ", count, " elements exceeds bufferView ", viewIndex,
+                        " (", view.byteLength, " bytes)"));
 }
 
 Status checkSparse(const GltfDocument& document, std::uint32_t index) {
   const GltfAccessor& accessor = document.accessors[index];
   const GltfSparse& sparse = *accessor.sparse;
-  const std::string place = "accessor " + number(index) + " sparse";
+  const std::string place = concat("accessor ", index, " sparse");
   if (sparse.count == 0 || sparse.count > accessor.count) {
-    return badFile(place + ".count is " + number(sparse.count) + " for " + number(accessor.count) + " elements");
+    return badFile(concat(place, ".count is ", sparse.count, " for ", accessor.count, " elements"));
   }
   const std::uint32_t type = sparse.indicesType;
   if (type != kGltfUint8 && type != kGltfUint16 && type != kGltfUint32) {
@@ -340,11 +350,11 @@ Status checkTriangles(const GltfDocument& document, const GltfPrimitive& primiti
   const std::string what = primitive.place() + " POSITION";
   if (primitive.draco) return checkDraco(document, primitive);
   const GltfAccessor& position = document.accessors[primitive.position];
-  const std::string place = " (accessor " + number(primitive.position) + ")";
+  const std::string place = concat(" (accessor ", primitive.position, ")");
   if (position.components != 3 || position.componentType == kGltfUint32) {
-    return badFile(what + place + ": is not a VEC3 of floats or of 8- or 16-bit integers");
+    return badFile(concat(what, place, ": is not a VEC3 of floats or of 8- or 16-bit integers"));
   }
-  if (position.count == 0) return badFile("accessor " + number(primitive.position) + ": count is 0");
+  if (position.count == 0) return badFile(concat("accessor ", primitive.position, ": count is 0"));
   if (position.view != kNone) {
     if (Status status = checkElements(document, primitive.position); !status) return status;
   }
@@ -352,21 +362,28 @@ Status checkTriangles(const GltfDocument& document, const GltfPrimitive& primiti
     if (Status status = checkSparse(document, primitive.position); !status) return status;
   }
 
+  for (const std::uint32_t accessor : primitive.textureCoordinates) {
+    if (accessor == kNone) continue;
+    const GltfAccessor& coordinates = document.accessors[accessor];
+    if (coordinates.components != 2 || coordinates.componentType == kGltfUint32 || coordinates.view == kNone)
+      return unsupportedFile(concat("accessor ", accessor, ": is not a stored VEC2 of floats or small integers"));
+    if (Status status = checkElements(document, accessor); !status) return status;
+  }
   if (primitive.indices == kNone) return okStatus();
   const GltfAccessor& indices = document.accessors[primitive.indices];
-  const std::string indicesPlace = primitive.place() + " indices (accessor " + number(primitive.indices) + ")";
+  const std::string indicesPlace = concat(primitive.place(), " indices (accessor ", primitive.indices, ")");
   const bool unsignedType =
       indices.componentType == 5121 || indices.componentType == 5123 || indices.componentType == 5125;
   if (indices.components != 1 || !unsignedType) return badFile(indicesPlace + ": is not a SCALAR of unsigned integers");
-  if (indices.count == 0) return badFile("accessor " + number(primitive.indices) + ": count is 0");
+  if (indices.count == 0) return badFile(concat("accessor ", primitive.indices, ": count is 0"));
   if (indices.sparse) {
     if (Status status = checkSparse(document, primitive.indices); !status) return status;
   }
   if (indices.view == kNone) return okStatus();
   const std::uint32_t stride = document.views[indices.view].byteStride;
   if (stride != 0 && stride != indices.elementBytes()) {
-    return badFile(indicesPlace + ": bufferView " + number(indices.view) +
-                   " has a byteStride, which indices must not have");
+    return badFile(
+        concat(indicesPlace, ": bufferView ", indices.view, " has a byteStride, which indices must not have"));
   }
   return checkElements(document, primitive.indices);
 }
@@ -395,7 +412,7 @@ void GltfDocument::warn(std::string text) {
 }
 
 std::string GltfPrimitive::place() const {
-  return "mesh " + number(mesh) + " primitive " + number(index);
+  return concat("mesh ", mesh, " primitive ", index);
 }
 
 const char* primitiveModeName(std::uint32_t mode) {
@@ -404,13 +421,14 @@ const char* primitiveModeName(std::uint32_t mode) {
   return mode < 7 ? kNames[mode] : "primitives of an unknown mode";
 }
 
-Result<GltfDocument> readGltfDocument(std::string_view json, std::size_t jsonBegin) {
+Result<GltfDocument> readGltfDocument(std::string_view json, std::size_t jsonBegin, bool withTextures) {
   const Result<JsonValue> root = parseJson(json);
   if (!root) return root.error();
   if (!root->isObject()) return badFile("glTF: the JSON text is not an object");
   const GltfSections sections = findSections(*root, json, jsonBegin);
 
   GltfDocument document;
+  document.withTextures = withTextures;
   document.version = sections.asset.find("version").asString();
   if (document.version.empty()) return badFile("glTF: asset.version is missing");
   if (document.version.substr(0, 2) != "2.") return unsupportedFile("glTF version " + quoted(document.version));
@@ -445,6 +463,11 @@ Result<GltfDocument> readGltfDocument(std::string_view json, std::size_t jsonBeg
     if (Status status = checkTriangles(document, primitive); !status) return status.error();
   }
   markOtherUses(sections, document);
+  if (withTextures) {
+    document.materials = sections.materials.elements();
+    document.textures = sections.textures.elements();
+    document.images = sections.images.elements();
+  }
   return document;
 }
 

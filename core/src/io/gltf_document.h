@@ -2,6 +2,7 @@
 // The parts of a glTF document that positions depend on: buffers, views, accessors, triangle primitives, nodes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -80,6 +81,8 @@ struct GltfPrimitive {
   std::uint32_t mode = 4;
   /// If set for triangles, position and indices declare what the stream holds; decodeDracoPrimitives() replaces them.
   std::optional<GltfDraco> draco;
+  std::uint32_t material = kNone;  ///< these two only in documents with textures
+  std::array<std::uint32_t, 4> textureCoordinates{kNone, kNone, kNone, kNone};  ///< accessor of each TEXCOORD_n
 
   [[nodiscard]] bool hasTriangles() const { return mode >= 4 && mode <= 6; }
   [[nodiscard]] std::string place() const;
@@ -98,6 +101,9 @@ struct GltfDocument {
   std::vector<GltfPrimitive> primitives;  ///< with a POSITION, in file order
   std::vector<GltfNode> nodes;            ///< with a mesh
   std::vector<std::uint32_t> imageViews;  ///< buffer views that hold images
+  bool withTextures = false;  ///< whether texture coordinates are needed and the next three, elements of the JSON text,
+                              ///< are there
+  std::vector<JsonValue> materials, textures, images;
   std::uint64_t meshCount = 0, nodeCount = 0, primitiveCount = 0;
   std::vector<std::string> extensionsUsed;
   std::vector<std::string> warnings;
@@ -115,7 +121,8 @@ const char* primitiveModeName(std::uint32_t mode);
 /// Reads the document. What positions do not need may be broken; what they need is checked, in 64 bit:
 /// types, ranges, references, views inside buffers, accessors inside views, and that this version can handle it.
 /// @param jsonBegin  where the JSON text begins in the file, so that spans are the file's.
+/// @param withTextures  reads texture coordinates of triangles, too, and keeps the JSON of what shows them.
 /// Fails with badFile, unsupportedFile or tooLarge, naming the place.
-Result<GltfDocument> readGltfDocument(std::string_view json, std::size_t jsonBegin);
+Result<GltfDocument> readGltfDocument(std::string_view json, std::size_t jsonBegin, bool withTextures = false);
 
 }  // namespace quadmark::io

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "concat.h"
 #include "draco_codec.h"
 
 namespace quadmark::io {
@@ -49,8 +50,7 @@ class DracoPrimitives {
     if (!mesh) return mesh.error();
     decodedBytes_ += mesh->values[0].size() + mesh->indices.size() * sizeof(std::uint32_t);
     if (decodedBytes_ > memoryLimit_) {
-      return tooLarge(primitive.place() + ": the compressed data would take more than " + std::to_string(memoryLimit_) +
-                      " bytes");
+      return tooLarge(concat(primitive.place(), ": the compressed data would take more than ", memoryLimit_, " bytes"));
     }
     GltfAccessor position = declared;
     position.sparse = {};

@@ -5,6 +5,7 @@
 
 #include "allowed_spans.h"
 #include "base64.h"
+#include "concat.h"
 
 namespace quadmark::io {
 namespace {
@@ -72,10 +73,10 @@ GltfEdits::Place GltfEdits::appendBytes(Bytes bytes) {
 
 std::uint32_t GltfEdits::appendView(Bytes bytes, std::uint32_t byteStride, std::uint32_t target) {
   const Place place = appendBytes(bytes);
-  std::string view = R"({"buffer":)" + std::to_string(place.buffer) + R"(,"byteOffset":)" +
-                     std::to_string(place.byteOffset) + R"(,"byteLength":)" + std::to_string(bytes.size());
-  if (byteStride != 0) view += R"(,"byteStride":)" + std::to_string(byteStride);
-  if (target != 0) view += R"(,"target":)" + std::to_string(target);
+  std::string view =
+      concat(R"({"buffer":)", place.buffer, R"(,"byteOffset":)", place.byteOffset, R"(,"byteLength":)", bytes.size());
+  if (byteStride != 0) view += concat(R"(,"byteStride":)", byteStride);
+  if (target != 0) view += concat(R"(,"target":)", target);
   views_.push_back(view + "}");
   return static_cast<std::uint32_t>(viewCount_ + views_.size() - 1);
 }
@@ -101,7 +102,7 @@ void GltfEdits::declareAppended() {
     return;
   }
   std::string buffer = R"({"byteLength":)" + length;
-  if (!appendsToBin_) buffer += R"(,"uri":"data:application/octet-stream;base64,)" + toBase64(appended_) + "\"";
+  if (!appendsToBin_) buffer += concat(R"(,"uri":"data:application/octet-stream;base64,)", toBase64(appended_), "\"");
   addToArray(json_, root_, "buffers", {buffer + "}"});
 }
 

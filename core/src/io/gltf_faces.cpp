@@ -3,6 +3,7 @@
 #include <set>
 #include <tuple>
 
+#include "concat.h"
 #include "face_collector.h"
 #include "gltf_model.h"
 #include "gltf_sparse.h"
@@ -51,9 +52,8 @@ Status appendFaces(const FaceSource& source, const Stream& stream, const Vertice
   const std::uint64_t used = mode == 4 ? source.count / 3 * 3 : source.count;
   for (std::uint64_t i = 0; i < source.count; ++i) {
     if (stream(i) < vertexCount) continue;
-    return badFile(source.primitive->place() + ": index " + std::to_string(stream(i)) + " at position " +
-                   std::to_string(i) + " exceeds accessor " + std::to_string(source.window->accessor) + " (" +
-                   std::to_string(vertexCount) + " vertices)");
+    return badFile(concat(source.primitive->place(), ": index ", stream(i), " at position ", i, " exceeds accessor ",
+                          source.window->accessor, " (", vertexCount, " vertices)"));
   }
   if (mode == 4) {
     const std::size_t begin = mesh.faceVertices.size();
@@ -89,8 +89,9 @@ Status appendFaces(const FaceSource& source, const Vertices& vertexOf, Mesh& mes
 
 }  // namespace
 
-Status GltfModel::readFaces(const GltfDocument& document, const std::vector<BufferBytes>& buffers,
-                            std::uint64_t totalBytes, std::uint64_t memoryLimit) {
+Result<std::vector<PrimitiveFaces>> GltfModel::readFaces(const GltfDocument& document,
+                                                         const std::vector<BufferBytes>& buffers,
+                                                         std::uint64_t totalBytes, std::uint64_t memoryLimit) {
   std::vector<FaceSource> sources;
   std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> seen;  // the same faces twice say nothing new
   std::uint64_t corners = 0;
@@ -104,8 +105,8 @@ Status GltfModel::readFaces(const GltfDocument& document, const std::vector<Buff
     if (primitive.indices != kNone) source.count = document.accessors[primitive.indices].count;
     constexpr std::size_t kMostWarnings = 200;
     if (primitive.mode == 4 && source.count % 3 != 0 && info_.warnings.size() < kMostWarnings) {
-      info_.warnings.push_back(primitive.place() + ": " + std::to_string(source.count) +
-                               " corners are not a multiple of 3; the rest is passed through");
+      info_.warnings.push_back(concat(primitive.place(), ": ", source.count,
+                                      " corners are not a multiple of 3; the rest is passed through"));
     }
     corners += source.mostCorners();
     sources.push_back(source);
@@ -114,9 +115,10 @@ Status GltfModel::readFaces(const GltfDocument& document, const std::vector<Buff
   constexpr std::uint64_t kMostCornersPerByte = 4;
   if (corners > FaceCollector::kLargestCornerCount || corners / kMostCornersPerByte > totalBytes ||
       corners > memoryLimit / sizeof(std::uint32_t)) {
-    return tooLarge("glTF: primitives reuse the same data for " + std::to_string(corners) + " triangle corners");
+    return tooLarge(concat("glTF: primitives reuse the same data for ", corners, " triangle corners"));
   }
   mesh_.faceVertices.reserve(static_cast<std::size_t>(corners));
+  std::vector<PrimitiveFaces> faces;
   for (FaceSource& source : sources) {
     std::vector<std::uint8_t> assembled;
     if (const std::uint32_t index = source.primitive->indices; index != kNone) {
@@ -133,12 +135,14 @@ Status GltfModel::readFaces(const GltfDocument& document, const std::vector<Buff
       }
     }
     const PositionWindow& window = *source.window;
+    const std::size_t begin = mesh_.faceVertices.size();
     const bool plain = window.isStored() && window.values == kNone;
     Status status = plain ? appendFaces(source, PlainVertices{static_cast<std::uint32_t>(window.firstVertex)}, mesh_)
                           : appendFaces(source, SparseVertices{positions_, window}, mesh_);
-    if (!status) return status;
+    if (!status) return status.error();
+    faces.push_back({source.primitive, begin, mesh_.faceVertices.size()});
   }
-  return okStatus();
+  return faces;
 }
 
 }  // namespace quadmark::io

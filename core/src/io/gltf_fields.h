@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bytes.h"
+#include "concat.h"
 #include "json_text.h"
 
 namespace quadmark::io {
@@ -32,7 +33,7 @@ class FieldReader {
   }
 
   void fail(const std::string& what) {
-    if (!error_) error_ = badFile(place_ + " " + what);
+    if (!error_) error_ = badFile(concat(place_, " ", what));
   }
 
   /// Takes another reader's error over, if it has one.
@@ -46,8 +47,7 @@ class FieldReader {
   std::uint64_t check(std::string_view name, JsonValue value, std::uint64_t largest) {
     const std::optional<std::uint64_t> number = value.asUnsigned();
     if (number && *number <= largest) return *number;
-    fail(std::string(name) + " is " + quoted(value.text()) + ", expected an integer from 0 to " +
-         std::to_string(largest));
+    fail(concat(name, " is ", quoted(value.text()), ", expected an integer from 0 to ", largest));
     return 0;
   }
 

@@ -4,6 +4,7 @@
 
 #include "gltf_arrays.h"
 #include "gltf_buffers.h"
+#include "gltf_texture_shift.h"
 #include "json_edits.h"
 #include "quadmark/io/gltf.h"
 
@@ -11,7 +12,8 @@ namespace quadmark::io {
 
 class GltfModel final : public Model {
  public:
-  Status read(Bytes file, const Resources& resources);
+  /// @param meter  if given, measures against the positions read.
+  Status read(Bytes file, const Resources& resources, TextureShiftMeter* meter = nullptr);
   [[nodiscard]] Status checkMarkable() const override {
     return positions_.conflict.empty() ? okStatus() : Status(unsupportedFile(positions_.conflict));
   }
@@ -38,8 +40,9 @@ class GltfModel final : public Model {
   /// Fills in which elements the values of sparse accessors replace.
   Status readReplaced(const GltfDocument& document, const std::vector<BufferBytes>& buffers);
   Status readPositions(const std::vector<BufferBytes>& buffers);
-  Status readFaces(const GltfDocument& document, const std::vector<BufferBytes>& buffers, std::uint64_t totalBytes,
-                   std::uint64_t memoryLimit);
+  /// @return those of each primitive, but for primitives that draw the same triangles again.
+  Result<std::vector<PrimitiveFaces>> readFaces(const GltfDocument& document, const std::vector<BufferBytes>& buffers,
+                                                std::uint64_t totalBytes, std::uint64_t memoryLimit);
   void readGroups(const GltfDocument& document);
   void setGrid(std::uint64_t firstVertex, std::uint64_t count, const CoordinateGrid& grid);
   [[nodiscard]] Error notFinite(std::uint64_t vertex, int axis) const;

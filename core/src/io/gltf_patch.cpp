@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "allowed_spans.h"
+#include "concat.h"
 #include "data_uri.h"
 #include "gltf_bounds.h"
 #include "gltf_decompress.h"
@@ -13,7 +14,7 @@ namespace quadmark::io {
 namespace {
 
 Error notTheFile(const std::string& what) {
-  return Error{ErrorCode::badOption, "patch: these are not the bytes that were read (" + what + ")"};
+  return Error{ErrorCode::badOption, concat("patch: these are not the bytes that were read (", what, ")")};
 }
 
 /// Writes the positions of all arrays in one buffer; components of equal value keep their bytes.
@@ -187,12 +188,12 @@ Result<PatchedFile> GltfModel::patch(std::span<const std::uint8_t> file, const R
       patched.resources[buffers_[i].key] = std::move(after);
       continue;
     }
-    const std::string name = "buffer " + std::to_string(i);
+    const std::string name = concat("buffer ", i);
     Result<std::string> uri = recodeDataUri(textAt(file, buffers_[i].uri), after, name);
     if (!uri) return uri.error();
     const Result<std::vector<std::uint8_t>> decoded = decodeDataUri(*uri, name);
     if (!decoded || *decoded != after)
-      return Error{ErrorCode::internal, "self-check: " + name + " decodes differently"};
+      return Error{ErrorCode::internal, concat("self-check: ", name, " decodes differently")};
     edits->replace(buffers_[i].uri, std::move(uri).value());
   }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "concat.h"
 #include "gltf_draco.h"
 #include "gltf_model.h"
 #include "gltf_sparse.h"
@@ -21,6 +22,13 @@ Result<std::unique_ptr<Model>> readGltf(std::span<const std::uint8_t> file, cons
   auto model = std::make_unique<io::GltfModel>();
   if (Status status = model->read(file, resources); !status) return status.error();
   return std::unique_ptr<Model>(std::move(model));
+}
+
+std::optional<TextureShift> textureShift(std::span<const std::uint8_t> file, const Resources& resources,
+                                         const std::vector<double>& before) {
+  io::TextureShiftMeter meter(before);
+  if (!isGltf(file) || !io::GltfModel().read(file, resources, &meter)) return std::nullopt;
+  return meter.shift();
 }
 
 namespace io {
@@ -56,8 +64,8 @@ Error GltfModel::notFinite(std::uint64_t vertex, int axis) const {
       });
   const bool isValue = positions_.windows[positions_.windowOf[window->accessor]].values != kNone &&
                        &*window != &positions_.windows[positions_.windowOf[window->accessor]];
-  return badMesh("accessor " + std::to_string(window->accessor) + ": " + (isValue ? "sparse value " : "vertex ") +
-                 std::to_string(vertex - window->firstVertex) + ", component " + "xyz"[axis] + " is not finite");
+  return badMesh(concat("accessor ", window->accessor, ": ", isValue ? "sparse value " : "vertex ",
+                        vertex - window->firstVertex, ", component ", "xyz"[axis], " is not finite"));
 }
 
 Status GltfModel::readPositions(const std::vector<BufferBytes>& buffers) {
@@ -145,12 +153,12 @@ void GltfModel::readGroups(const GltfDocument& document) {
   for (std::size_t v = 0; v < vertexMesh_.size(); ++v) mesh_.groups[v] = groupOf[find(vertexMesh_[v])];
 }
 
-Status GltfModel::read(Bytes file, const Resources& resources) {
+Status GltfModel::read(Bytes file, const Resources& resources, TextureShiftMeter* meter) {
   // 1. The document.
   Result<GltfContainer> container = openGltf(file);
   if (!container) return container.error();
   container_ = std::move(container).value();
-  Result<GltfDocument> read = readGltfDocument(container_.json(file), container_.jsonBegin);
+  Result<GltfDocument> read = readGltfDocument(container_.json(file), container_.jsonBegin, meter != nullptr);
   if (!read) return read.error();
   GltfDocument document = std::move(read).value();
   fileSize_ = file.size();
@@ -191,15 +199,19 @@ Status GltfModel::read(Bytes file, const Resources& resources) {
   for (const PositionWindow& window : positions_.windows) windowed += window.isStored() ? window.count : 1;
   if (windowed > totalBytes) return tooLarge("glTF: accessors reuse the same positions too often");
   if (positions_.vertexCount > limit / (3 * sizeof(double))) {
-    return tooLarge("glTF: " + std::to_string(positions_.vertexCount) +
-                    " vertices are too many for a file of this size");
+    return tooLarge(concat("glTF: ", positions_.vertexCount, " vertices are too many for a file of this size"));
   }
   if (Status status = readReplaced(document, buffers); !status) return status;
   if (Status status = readPositions(buffers); !status) return status;
 
   // 3. Faces and groups.
-  if (Status status = readFaces(document, buffers, totalBytes, limit); !status) return status;
+  const Result<std::vector<PrimitiveFaces>> faces = readFaces(document, buffers, totalBytes, limit);
+  if (!faces) return faces.error();
   if (mesh_.faceCount() == 0) return badMesh("glTF: the file has no triangles");
+  if (meter != nullptr) {
+    meter->measure(document, resources, buffers, positions_, mesh_, *faces);
+    return okStatus();
+  }
   readGroups(document);
   if (boundingDiagonal(mesh_) == 0) return badMesh("glTF: all used vertices are at one point");
 

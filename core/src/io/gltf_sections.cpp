@@ -16,6 +16,8 @@ GltfSections findSections(JsonValue root, std::string_view text, std::size_t tex
                 {"accessors", &sections.accessors},
                 {"meshes", &sections.meshes},
                 {"nodes", &sections.nodes},
+                {"materials", &sections.materials},
+                {"textures", &sections.textures},
                 {"images", &sections.images},
                 {"skins", &sections.skins},
                 {"animations", &sections.animations},

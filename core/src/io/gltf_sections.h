@@ -10,7 +10,8 @@ namespace quadmark::io {
 struct GltfSections {
   std::string_view text;      ///< the whole JSON text
   std::size_t textBegin = 0;  ///< where it begins in the file
-  JsonValue asset, buffers, bufferViews, accessors, meshes, nodes, images, skins, animations, extensionsUsed;
+  JsonValue asset, buffers, bufferViews, accessors, meshes, nodes, materials, textures, images, skins, animations,
+      extensionsUsed;
 };
 
 /// Finds all of them in one pass; what is missing is absent.

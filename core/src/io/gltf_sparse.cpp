@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gltf_sparse.h"
 
+#include "concat.h"
+
 namespace quadmark::io {
 namespace {
 
@@ -24,9 +26,8 @@ Result<std::vector<std::uint32_t>> readSparseIndices(const GltfDocument& documen
                                 : width == 2 ? load<std::uint16_t>(bytes + 2 * i)
                                              : load<std::uint32_t>(bytes + 4 * i);
     if (index >= count || (i > 0 && index <= replaced.back())) {
-      return badFile("accessor " + std::to_string(accessor) + " sparse.indices: " + std::to_string(index) +
-                     " at position " + std::to_string(i) + " is not ascending or exceeds " + std::to_string(count) +
-                     " elements");
+      return badFile(concat("accessor ", accessor, " sparse.indices: ", index, " at position ", i,
+                            " is not ascending or exceeds ", count, " elements"));
     }
     replaced.push_back(index);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "meshopt.h"
 
+#include "concat.h"
+
 namespace quadmark::io {
 namespace {
 
@@ -27,8 +29,8 @@ Result<std::vector<std::uint8_t>> decodeMeshopt(Bytes stream, const MeshoptLayou
                   : layout.mode == MeshoptMode::triangles ? decodeMeshoptTriangles(stream, layout, bytes.data())
                                                           : decodeMeshoptIndices(stream, layout, bytes.data());
   if (!ok) {
-    return badFile(place + ": the meshopt data is broken, or is not that of " + std::to_string(layout.count) +
-                   " elements of " + std::to_string(layout.byteStride) + " bytes");
+    return badFile(concat(place, ": the meshopt data is broken, or is not that of ", layout.count, " elements of ",
+                          layout.byteStride, " bytes"));
   }
   if (layout.filter == MeshoptFilter::exponential) undoExponential(bytes);
   return bytes;

@@ -6,14 +6,15 @@
 #include <span>
 
 #include "bytes.h"
+#include "concat.h"
 
 namespace quadmark::io {
 
 /// Fails with badOption unless there are 3 numbers per vertex.
 inline Status checkPositions(std::span<const double> positions, std::uint64_t vertexCount) {
   if (positions.size() == 3 * vertexCount) return okStatus();
-  return Error{ErrorCode::badOption, "positions: " + std::to_string(positions.size()) + " numbers for " +
-                                         std::to_string(vertexCount) + " vertices"};
+  return Error{ErrorCode::badOption,
+               concat("positions: ", positions.size(), " numbers for ", vertexCount, " vertices")};
 }
 
 inline bool fitsFloat32(double x) { return double{static_cast<float>(x)} == x; }
@@ -24,8 +25,8 @@ Status checkRepresentable(std::span<const double> positions, std::uint64_t first
                           const Fits& fits) {
   for (auto i = static_cast<std::size_t>(3 * firstVertex); i < static_cast<std::size_t>(3 * (firstVertex + count)); ++i) {
     if (std::isfinite(positions[i]) && fits(positions[i])) continue;
-    return Error{ErrorCode::badOption, "positions: vertex " + std::to_string(i / 3) + ", component " + "xyz"[i % 3] +
-                                           " is not a finite number of the file's precision"};
+    return Error{ErrorCode::badOption, concat("positions: vertex ", i / 3, ", component ", "xyz"[i % 3],
+                                              " is not a finite number of the file's precision")};
   }
   return okStatus();
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "concat.h"
 #include "number_text.h"
 #include "ply_header.h"
 
@@ -46,7 +47,7 @@ class BinaryPlyCursor {
   [[nodiscard]] ByteOrder order() const { return order_; }
   [[nodiscard]] std::uint64_t bytesLeft() const { return static_cast<std::uint64_t>(end_ - at_); }
   [[nodiscard]] PlyFault fault() const { return fault_; }
-  [[nodiscard]] std::string place() const { return "byte " + std::to_string(position()); }
+  [[nodiscard]] std::string place() const { return concat("byte ", position()); }
   [[nodiscard]] std::string_view lastText() const { return {}; }
 
   /// Upper bound of the list items that can still follow.
@@ -143,7 +144,7 @@ class TextPlyCursor {
     for (const std::uint8_t* byte = file_; byte < body_ && !lineFeeds; ++byte) lineFeeds = *byte == '\n';
     std::size_t line = 1;
     for (const std::uint8_t* byte = file_; byte < lastByte; ++byte) line += *byte == (lineFeeds ? '\n' : '\r') ? 1 : 0;
-    return "line " + std::to_string(line);
+    return concat("line ", line);
   }
 
   [[nodiscard]] std::uint64_t itemsLeft(PlyType) const { return (static_cast<std::uint64_t>(end_ - at_) + 1) / 2; }

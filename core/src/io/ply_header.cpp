@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "concat.h"
 #include "number_text.h"
 
 namespace quadmark::io {
@@ -58,7 +59,7 @@ class LineReader {
 
   [[nodiscard]] std::size_t position() const { return at_; }
   [[nodiscard]] Error error(const std::string& what) const {
-    return badFile("PLY header line " + std::to_string(number_) + ": " + what);
+    return badFile(concat("PLY header line ", number_, ": ", what));
   }
 
  private:
@@ -91,11 +92,11 @@ Status parseElement(LineReader& line, PlyHeader& header) {
   const std::string_view countText = line.word();
   const std::optional<std::int64_t> count = parseInteger(countText);
   if (element.name.empty()) return line.error("element without a name");
-  if (!count || *count < 0) return line.error("element count " + quoted(countText) + " is not a number of rows");
+  if (!count || *count < 0) return line.error(concat("element count ", quoted(countText), " is not a number of rows"));
   element.count = static_cast<std::uint64_t>(*count);
   const bool onlyOnce = element.name == "vertex" || element.name == "face" || element.name == "tristrips";
   if (onlyOnce && header.find(element.name) != nullptr) {
-    return line.error("element " + quoted(element.name) + " appears twice");
+    return line.error(concat("element ", quoted(element.name), " appears twice"));
   }
   header.elements.push_back(std::move(element));
   return okStatus();
@@ -112,7 +113,7 @@ Status parseProperty(LineReader& line, PlyHeader& header) {
     const std::string_view countName = line.word();
     const std::optional<PlyType> countType = typeByName(countName);
     if (!countType || isFloating(*countType)) {
-      return line.error("list length type " + quoted(countName) + " is not an integer type");
+      return line.error(concat("list length type ", quoted(countName), " is not an integer type"));
     }
     property.countType = *countType;
     typeName = line.word();
@@ -124,7 +125,7 @@ Status parseProperty(LineReader& line, PlyHeader& header) {
   if (property.name.empty()) return line.error("property without a name");
   const bool isCoordinate = property.name == "x" || property.name == "y" || property.name == "z";
   if (element.name == "vertex" && isCoordinate && element.find(property.name) >= 0) {
-    return line.error("property " + quoted(property.name) + " appears twice");
+    return line.error(concat("property ", quoted(property.name), " appears twice"));
   }
   element.rowBytes += sizeBytes(property.isList ? property.countType : property.type);
   element.properties.push_back(std::move(property));
@@ -140,9 +141,8 @@ Status checkCounts(const PlyHeader& header, std::uint64_t bytesLeft) {
     const std::uint64_t available = ascii ? bytesLeft + 1 : bytesLeft;
     if (rowBytes == 0) continue;
     if (element.count > available / rowBytes) {
-      return badFile("PLY element " + quoted(element.name) + ": " + std::to_string(element.count) +
-                     " rows of at least " + std::to_string(rowBytes) + " bytes do not fit into the remaining " +
-                     std::to_string(bytesLeft) + " bytes");
+      return badFile(concat("PLY element ", quoted(element.name), ": ", element.count, " rows of at least ", rowBytes,
+                            " bytes do not fit into the remaining ", bytesLeft, " bytes"));
     }
     bytesLeft = available - element.count * rowBytes;
   }

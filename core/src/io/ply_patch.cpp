@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "allowed_spans.h"
+#include "concat.h"
 #include "patch_positions.h"
 #include "ply_body.h"
 #include "ply_model.h"
@@ -122,8 +123,7 @@ Result<PatchedFile> PlyModel::patchText(Bytes file, std::span<const double> posi
 Status PlyModel::checkPatchedText(Bytes file, Bytes patched, std::span<const double> positions) const {
   const PlyElement& element = vertexElement();
   const auto failed = [](std::uint64_t row) {
-    return Error{ErrorCode::internal,
-                 "self-check: the row of vertex " + std::to_string(row) + " changed beyond its position"};
+    return Error{ErrorCode::internal, concat("self-check: the row of vertex ", row, " changed beyond its position")};
   };
   PlyHeader body = header_;
   body.bodyBegin = vertexBegin_;

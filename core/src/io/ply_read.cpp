@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "concat.h"
 #include "face_collector.h"
 #include "ply_body.h"
 #include "ply_model.h"
@@ -27,16 +28,16 @@ namespace {
 /// The error of a cursor's failed call, for example `PLY line 14: vertex 20, property "y": ...`.
 template <class Cursor>
 Error faultAt(const Cursor& cursor, const std::string& element, std::uint64_t row, const PlyProperty& property) {
-  const std::string where = element + " " + std::to_string(row) + ", property " + quoted(property.name);
+  const std::string where = concat(element, " ", row, ", property ", quoted(property.name));
   switch (cursor.fault()) {
     case PlyFault::truncated:
-      return badFile("PLY: the file ends (" + cursor.place() + ") inside " + where);
+      return badFile(concat("PLY: the file ends (", cursor.place(), ") inside ", where));
     case PlyFault::listTooLong:
-      return badFile("PLY " + cursor.place() + ": " + where +
-                     ": the list's length does not fit into the rest of the file");
+      return badFile(
+          concat("PLY ", cursor.place(), ": ", where, ": the list's length does not fit into the rest of the file"));
     default:
-      return badFile("PLY " + cursor.place() + ": " + where + ": " + quoted(cursor.lastText()) +
-                     " is not a number of its type");
+      return badFile(
+          concat("PLY ", cursor.place(), ": ", where, ": ", quoted(cursor.lastText()), " is not a number of its type"));
   }
 }
 
@@ -44,7 +45,7 @@ template <class Cursor>
 Status skipElement(Cursor& cursor, const PlyElement& element) {
   if (!element.hasList) {
     if (cursor.skipRows(element)) return okStatus();
-    return badFile("PLY: the file ends (" + cursor.place() + ") inside element " + quoted(element.name));
+    return badFile(concat("PLY: the file ends (", cursor.place(), ") inside element ", quoted(element.name)));
   }
   for (std::uint64_t row = 0; row < element.count; ++row) {
     for (const PlyProperty& property : element.properties) {
@@ -55,7 +56,7 @@ Status skipElement(Cursor& cursor, const PlyElement& element) {
 }
 
 Error notFinite(std::uint64_t vertex, int axis) {
-  return badMesh("PLY vertex " + std::to_string(vertex) + ", property " + "xyz"[axis] + " is not a finite number");
+  return badMesh(concat("PLY vertex ", vertex, ", property ", "xyz"[axis], " is not a finite number"));
 }
 
 /// The common binary case: rows of equal size.
@@ -93,12 +94,12 @@ Status PlyModel::checkVertexElement() const {
   constexpr const char* kAxes[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
     const std::string name = kAxes[axis];
-    if (axisProperty_[axis] < 0) return badFile("PLY element \"vertex\" has no property \"" + name + "\"");
+    if (axisProperty_[axis] < 0) return badFile(concat("PLY element \"vertex\" has no property \"", name, "\""));
     const PlyProperty& property = element.properties[axisProperty_[axis]];
-    if (property.isList) return badFile("PLY vertex property \"" + name + "\" is a list");
+    if (property.isList) return badFile(concat("PLY vertex property \"", name, "\" is a list"));
     if (!isFloating(property.type)) {
-      return unsupportedFile("PLY vertex property \"" + name +
-                             "\" has an integer type; coordinates must be float or double");
+      return unsupportedFile(
+          concat("PLY vertex property \"", name, "\" has an integer type; coordinates must be float or double"));
     }
     if (property.type != element.properties[axisProperty_[0]].type) {
       return unsupportedFile("PLY vertex properties x, y and z are of different types");
@@ -152,12 +153,12 @@ Status PlyModel::readFaces(Cursor& cursor, const PlyElement& element, bool isLas
   int list = element.find("vertex_indices");
   if (list < 0) list = element.find("vertex_index");
   if (list < 0) {
-    info_.warnings.push_back("element " + quoted(element.name) + " has no vertex_indices and is passed through");
+    info_.warnings.push_back(concat("element ", quoted(element.name), " has no vertex_indices and is passed through"));
     return skipElement(cursor, element);
   }
   const PlyProperty& indices = element.properties[list];
   if (!indices.isList || isFloating(indices.type)) {
-    return badFile("PLY " + element.name + " property " + quoted(indices.name) + " is not a list of integers");
+    return badFile(concat("PLY ", element.name, " property ", quoted(indices.name), " is not a list of integers"));
   }
   const std::uint64_t vertexCount = vertexElement().count;
   FaceCollector faces(mesh_);
@@ -194,8 +195,8 @@ Status PlyModel::readFaces(Cursor& cursor, const PlyElement& element, bool isLas
         if (strips && restart) {
           faces.restartStrip();
         } else if (vertex < 0 || static_cast<std::uint64_t>(vertex) >= vertexCount) {
-          return badFile("PLY " + cursor.place() + ": " + element.name + " " + std::to_string(row) + ": vertex index " +
-                         std::to_string(vertex) + " is outside 0.." + std::to_string(vertexCount - 1));
+          return badFile(concat("PLY ", cursor.place(), ": ", element.name, " ", row, ": vertex index ", vertex,
+                                " is outside 0..", vertexCount - 1));
         } else if (strips) {
           faces.stripVertex(static_cast<std::uint32_t>(vertex));
         } else {
@@ -207,8 +208,7 @@ Status PlyModel::readFaces(Cursor& cursor, const PlyElement& element, bool isLas
     }
   }
   if (faces.droppedPolygons() > 0) {
-    info_.warnings.push_back(std::to_string(faces.droppedPolygons()) +
-                             " faces with fewer than 3 corners are passed through");
+    info_.warnings.push_back(concat(faces.droppedPolygons(), " faces with fewer than 3 corners are passed through"));
   }
   return okStatus();
 }
@@ -233,7 +233,7 @@ Status PlyModel::readBody(Bytes file) {
   if (header_.encoding == PlyEncoding::ascii) {
     for (std::size_t at = cursor.position(); at < file.size() && TextPlyCursor::isBlank(file[at]); ++at) --extra;
   }
-  if (extra > 0) info_.warnings.push_back(std::to_string(extra) + " bytes after the last element are kept as they are");
+  if (extra > 0) info_.warnings.push_back(concat(extra, " bytes after the last element are kept as they are"));
   return okStatus();
 }
 

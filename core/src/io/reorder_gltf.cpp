@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "allowed_spans.h"
+#include "concat.h"
 #include "data_uri.h"
 #include "gltf_edits.h"
 #include "gltf_model.h"
@@ -145,8 +146,8 @@ Result<OrderFreedom> GltfModel::orderFreedom(std::span<const std::uint8_t> file,
                                      [&](const PositionWindow& w) { return w.array == i; });
     if (freedom.warnings.size() == kMostWarnings) freedom.warnings.back() = "the order of more vertices is kept";
     if (freedom.warnings.size() >= kMostWarnings) continue;
-    freedom.warnings.push_back("accessor " + std::to_string(window->accessor) + " (POSITION): the order of its " +
-                               std::to_string(array.count) + " vertices is kept: " + obstacle);
+    freedom.warnings.push_back(concat("accessor ", window->accessor, " (POSITION): the order of its ", array.count,
+                                      " vertices is kept: ", obstacle));
   }
   return freedom;
 }
@@ -189,7 +190,7 @@ Result<PatchedFile> GltfModel::reorder(std::span<const std::uint8_t> file, const
     if (place.source == BufferPlace::Source::bin) bin = i;
     if (place.source == BufferPlace::Source::resource) reordered.resources[place.key] = std::move(mover.after(i));
     if (place.source != BufferPlace::Source::dataUri) continue;
-    Result<std::string> uri = recodeDataUri(textAt(file, place.uri), mover.after(i), "buffer " + std::to_string(i));
+    Result<std::string> uri = recodeDataUri(textAt(file, place.uri), mover.after(i), concat("buffer ", i));
     if (!uri) return uri.error();
     edits->replace(place.uri, std::move(uri).value());
   }

@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "concat.h"
 #include "gltf_sections.h"
 #include "reorder_gltf.h"
 
@@ -22,7 +23,7 @@ struct Claim {
 };
 
 std::string accessorName(std::uint32_t accessor) {
-  return "accessor " + std::to_string(accessor);
+  return concat("accessor ", accessor);
 }
 
 /// Bytes of a buffer that are used once, and those used by more than one run.
@@ -119,8 +120,7 @@ class Planner {
     sections_.meshes.forEachElement([&](JsonValue mesh) {
       std::uint32_t primitiveIndex = 0;
       mesh.find("primitives").forEachElement([&](JsonValue primitive) {
-        const std::string place =
-            "mesh " + std::to_string(meshIndex) + " primitive " + std::to_string(primitiveIndex++);
+        const std::string place = concat("mesh ", meshIndex, " primitive ", primitiveIndex++);
         claimPrimitive(primitive, mesh.find("extensions"), place);
       });
       ++meshIndex;
@@ -163,7 +163,7 @@ class Planner {
     extensions.forEachMember([&](std::string_view name, JsonValue) {
       const bool harmless = std::any_of(std::begin(kHarmless), std::end(kHarmless),
                                         [&](std::string_view other) { return keyIs(name, other); });
-      if (!harmless) object(group, place + " has the extension " + quoted(name));
+      if (!harmless) object(group, concat(place, " has the extension ", quoted(name)));
     });
   }
 
@@ -235,8 +235,7 @@ class Planner {
     const GltfAccessor& accessor = document_.accessors[index];
     const std::uint64_t vertices = positions_.arrays[group].count;
     if (run.count != vertices) {
-      object(group, accessorName(index) + " has " + std::to_string(run.count) + " elements for " +
-                        std::to_string(vertices) + " vertices");
+      object(group, concat(accessorName(index), " has ", run.count, " elements for ", vertices, " vertices"));
     }
     // The columns of small matrices are padded, so their size is not that of their components.
     if (isMatrix_[index] || accessor.components > 4) object(group, accessorName(index) + " holds matrices");

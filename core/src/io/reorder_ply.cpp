@@ -3,6 +3,7 @@
 // places.
 #include <algorithm>
 
+#include "concat.h"
 #include "ply_body.h"
 #include "ply_model.h"
 #include "reorder_order.h"
@@ -240,7 +241,7 @@ Result<OrderFreedom> PlyModel::orderFreedom(std::span<const std::uint8_t> file, 
   for (const PlyElement& element : header_.elements) {
     if (element.count == 0) continue;
     for (const PlyProperty& property : element.properties) {
-      const std::string place = "element " + quoted(element.name) + ", property " + quoted(property.name);
+      const std::string place = concat("element ", quoted(element.name), ", property ", quoted(property.name));
       if (isReference(property) && largestOf(property.type) < vertexElement().count - 1) {
         // Legal while only the first vertices are referred to, but then others cannot take their place.
         freedom.warnings.push_back(place + " cannot hold every vertex index; the order of the vertices is kept");

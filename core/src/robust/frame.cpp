@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "concat.h"
 #include "quadmark/prf.h"
 #include "quadmark/robust/code.h"
 #include "quadmark/robust/demapper.h"
@@ -149,7 +150,7 @@ Result<PayloadBits> bitsOf(const Payload& payload, BodyRate rate, std::uint8_t s
   PayloadBits out;
   if (const auto* text = std::get_if<std::string>(&payload)) {
     if (text->empty() || text->size() > kLongestText)
-      return badText(std::to_string(text->size()) + " bytes, expected 1 to " + std::to_string(kLongestText));
+      return badText(concat(text->size(), " bytes, expected 1 to ", kLongestText));
     if (!isUtf8(*text)) return badText("not UTF-8, or with a zero byte");
     if (text->size() <= 8) {
       std::uint64_t field = 0;  // zero bytes fill the end
@@ -165,9 +166,8 @@ Result<PayloadBits> bitsOf(const Payload& payload, BodyRate rate, std::uint8_t s
     const BitImage& image = std::get<BitImage>(payload);
     if (image.width < 1 || image.height < 1 || image.width > kLargestSide || image.height > kLargestSide ||
         image.bits.size() != std::size_t{image.width} * image.height)
-      return Error{ErrorCode::badImage, "the image is " + std::to_string(image.width) + " x " +
-                                            std::to_string(image.height) + ", scheme robust takes up to " +
-                                            std::to_string(kLargestSide) + " x " + std::to_string(kLargestSide)};
+      return Error{ErrorCode::badImage, concat("the image is ", image.width, " x ", image.height,
+                                               ", scheme robust takes up to ", kLargestSide, " x ", kLargestSide)};
     shape.kind = PayloadKind::image;
     shape.width = image.width;
     shape.height = image.height;

@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <string>
 
+#include "concat.h"
 #include "quadmark/prf.h"
 
 namespace quadmark::robust {
 
 Result<SchemeKeys> deriveKeys(std::span<const std::uint8_t> secret, std::string_view salt) {
   if (salt.size() > kMaxSaltBytes)
-    return Error{ErrorCode::badOption, "salt: " + std::to_string(salt.size()) + " bytes, at most " +
-                                           std::to_string(kMaxSaltBytes) + " are allowed"};
+    return Error{ErrorCode::badOption,
+                 concat("salt: ", salt.size(), " bytes, at most ", kMaxSaltBytes, " are allowed")};
   if (salt.find('\0') != salt.npos) return Error{ErrorCode::badOption, "salt: contains a zero byte"};
   const auto* saltBytes = reinterpret_cast<const std::uint8_t*>(salt.data());
   const Digest master = hkdfSha256(secret, {saltBytes, salt.size()}, "qm/v1");

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "concat.h"
 #include "quadmark/robust/reader.h"
 
 namespace quadmark::robust {
@@ -30,13 +31,12 @@ std::uint32_t headPlaces(const MarkedMesh& marked) {
 
 Error tooSmall(const MarkedMesh& marked, bool readable) {
   const RobustEmbedding& e = marked.embedding;
-  const std::string counts = std::to_string(e.carriers) + " carriers and " + std::to_string(e.cells) + " cells hold " +
-                             std::to_string(headPlaces(marked)) + " of the " +
-                             std::to_string(marked.coded.head.size()) + " bits that identify the mark";
+  const std::string counts = concat(e.carriers, " carriers and ", e.cells, " cells hold ", headPlaces(marked),
+                                    " of the ", marked.coded.head.size(), " bits that identify the mark");
   if (!readable)
-    return {ErrorCode::capacity, counts + ": the payload does not read back" +
-                                     (marked.bits.body.empty() ? "" : "; a smaller image or an ID may fit")};
-  return {ErrorCode::capacity, counts + ", at least " + std::to_string(kLeastPositions) + " are needed"};
+    return {ErrorCode::capacity, concat(counts, ": the payload does not read back",
+                                        (marked.bits.body.empty() ? "" : "; a smaller image or an ID may fit"))};
+  return {ErrorCode::capacity, concat(counts, ", at least ", kLeastPositions, " are needed")};
 }
 
 }  // namespace

@@ -105,6 +105,11 @@ function describe(input, out, report, beside, person) {
   if (distortion) {
     lines.push(`  SNR ${number(distortion.snrDb, 1)} dB, largest displacement ${(distortion.maxRel * 100).toPrecision(2)} % of the diagonal`);
   }
+  if (report.textureShift) {
+    const { uv, texels, place } = report.textureShift;
+    const far = texels === null ? `${uv.toPrecision(2)} of its size` : `${texels.toPrecision(2)} texels`;
+    lines.push(`  textures slide by ${far} at most (${place}; --max-slide limits it)`);
+  }
   for (const [name, { read }] of Object.entries(report.selfTest ?? {})) {
     lines.push(`  after ${name}: ${read ? 'read' : 'not read'}`);
   }

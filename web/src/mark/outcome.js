@@ -12,6 +12,9 @@ const urls = new Urls();
 const view = new ViewPanel($('compare'));
 export const panels = new Panels('mark-', 'marking', view);
 
+// In texels where the image is known, otherwise as a share of the texture.
+const textureWords = ({ uv, texels }) => (texels === null ? scientific(uv) : t('texels', tenthWords(texels)));
+
 function factsOf({ report, millis, inputs, outputs }) {
   const { distortion } = report;
   const share = (value) => scientific(value);
@@ -23,6 +26,7 @@ function factsOf({ report, millis, inputs, outputs }) {
     [t('factHausdorff'), share(distortion.hausdorffRel)],
     [t('factSnr'), t('decibels', tenthWords(distortion.snrDb))],
     [t('factNormals'), t('degrees', tenthWords(distortion.meanNormalDeg))],
+    ...(report.textureShift ? [[t('factTexture'), textureWords(report.textureShift)]] : []),
     [t('factBytes'), wholeWords(report.bytesChanged)],
     [t('factTime'), secondsWords(millis)],
     [t('factHash', inputs.model.name), inputs.model.sha256],

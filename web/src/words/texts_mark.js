@@ -73,6 +73,8 @@ export const MARK_TEXTS = {
   factRms: ['Mean displacement (RMS), of the diagonal', 'Mittlere Verschiebung (RMS), Anteil der Diagonale'],
   factMax: ['Largest displacement, of the diagonal', 'Größte Verschiebung, Anteil der Diagonale'],
   factHausdorff: ['Distance of the surfaces (Hausdorff), of the diagonal', 'Abstand der Flächen (Hausdorff), Anteil der Diagonale'],
+  factTexture: ['Textures slide by at most', 'Texturen verrutschen um höchstens'],
+  texels: [(x) => `${x} texels`, (x) => `${x} Texel`],
   factNormals: ['Mean change of normals', 'Mittlere Änderung der Normalen'],
   degrees: [(x) => `${x}°`, (x) => `${x}°`],
   decibels: [(x) => `${x} dB`, (x) => `${x} dB`],
