@@ -11,9 +11,11 @@ import { assertQuiet, drop, onDisk, openPage, save, screenshot, startBrowsers, w
 import { repository } from './support/files.mjs';
 import { splitGlb } from './support/gltf.mjs';
 import { logo, logoPng } from './support/marks.mjs';
+import { webScene } from './support/scenes.mjs';
 
 const { inEach } = await startBrowsers(after);
 const { bytes: model } = await generate({ name: 'sculpture', vertices: 20000, format: 'glb' });
+const textured = await webScene(20000);
 const validate = new Ajv().compile(JSON.parse(readFileSync(join(repository, 'web/src/report/schema.json'))));
 
 async function openMark(t, browser) {
@@ -110,9 +112,9 @@ inEach('logos may be SVG or JPEG; threshold, size and inversion show at once', a
   assertQuiet(seen, browser.url);
 });
 
-inEach('an ID with a loaded key, a text with a passphrase, a glTF with its buffer', async (t, browser) => {
+inEach('an ID with a loaded key, a text with a passphrase, a textured glTF with its buffer', async (t, browser) => {
   const { page, seen } = await openMark(t, browser);
-  const { gltf, bin } = splitGlb(model, 'data.bin');
+  const { gltf, bin } = splitGlb(textured, 'data.bin');
   const key = await createKey({ owner: 'loaded' });
   await drop(page, onDisk(t, { 'scene.gltf': gltf, 'data.bin': bin, 'key.json': key }).paths);
   await page.waitForFunction(() => document.getElementById('room').textContent.includes('places'));
@@ -126,6 +128,7 @@ inEach('an ID with a loaded key, a text with a passphrase, a glTF with its buffe
   const gltfOut = await save(page, '#save-model'), binOut = await save(page, '#mark-saves a[download="data.bin"]');
   const read = await extract(gltfOut.bytes, { key, resources: { 'data.bin': binOut.bytes } });
   assert.deepEqual([read.verdict, read.id], ['match', '000000000000beef']);
+  assert.match(await page.locator('#mark-facts').innerText(), /Textures slide by at most\s+0\.\d texels/);
   await page.locator('#payload-kinds label', { hasText: 'Text' }).click();
   await page.locator('#text-input').fill('© Söhne');
   await page.locator('#key-kinds label', { hasText: 'Passphrase' }).click();

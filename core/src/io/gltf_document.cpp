@@ -365,7 +365,8 @@ Status checkTriangles(const GltfDocument& document, const GltfPrimitive& primiti
   for (const std::uint32_t accessor : primitive.textureCoordinates) {
     if (accessor == kNone) continue;
     const GltfAccessor& coordinates = document.accessors[accessor];
-    if (coordinates.components != 2 || coordinates.componentType == kGltfUint32 || coordinates.view == kNone)
+    const bool isStored = coordinates.view != kNone && !coordinates.sparse;
+    if (coordinates.components != 2 || coordinates.componentType == kGltfUint32 || !isStored)
       return unsupportedFile(concat("accessor ", accessor, ": is not a stored VEC2 of floats or small integers"));
     if (Status status = checkElements(document, accessor); !status) return status;
   }

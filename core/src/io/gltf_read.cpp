@@ -161,6 +161,7 @@ Status GltfModel::read(Bytes file, const Resources& resources, TextureShiftMeter
   Result<GltfDocument> read = readGltfDocument(container_.json(file), container_.jsonBegin, meter != nullptr);
   if (!read) return read.error();
   GltfDocument document = std::move(read).value();
+  if (meter != nullptr && document.textures.empty()) return okStatus();
   fileSize_ = file.size();
   info_.format = container_.isGlb ? FileFormat::glb : FileFormat::gltf;
   info_.variant = "glTF " + document.version;
