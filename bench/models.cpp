@@ -2,13 +2,12 @@
 #include "models.h"
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "quadmark/io/model.h"
 #include "quadmark/lab/attacks.h"
 #include "quadmark/lab/generate.h"
+#include "read_file.h"
 
 namespace quadmark::bench {
 namespace {
@@ -37,10 +36,18 @@ Result<NamedModel> loadModel(const std::string& name) {
     out.mesh = std::move(*mesh);
     return out;
   }
-  std::ifstream stream(name, std::ios::binary);
-  if (!stream) return Error{ErrorCode::io, "cannot read " + name};
-  out.bytes = {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  auto model = readModel(out.bytes);
+  auto bytes = readFile(name);
+  if (!bytes) return bytes.error();
+  out.bytes = std::move(*bytes);
+  const auto uris = externalUris(out.bytes);
+  if (!uris) return uris.error();
+  Resources resources;
+  for (const std::string& uri : *uris) {
+    auto resource = readFile(name.substr(0, name.rfind('/') + 1) + uri);
+    if (!resource) return resource.error();
+    resources[uri] = std::move(*resource);
+  }
+  auto model = readModel(out.bytes, resources);
   if (!model) return Error{model.error().code, out.name + ": " + model.error().message};
   out.mesh = std::move((*model)->mesh());
   return out;

@@ -13,7 +13,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,18 +21,14 @@
 #include "quadmark/lab/attacks.h"
 #include "quadmark/lab/generate.h"
 #include "quadmark/quadmark.h"
+#include "read_file.h"
 
 namespace {
 
 using namespace quadmark;
+using bench::readFile;
 using nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
-
-Result<Bytes> readFile(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return Error{ErrorCode::io, "cannot read " + path};
-  return Bytes(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-}
 
 Status writeFile(const std::string& path, const Bytes& bytes) {
   std::ofstream stream(path, std::ios::binary);
