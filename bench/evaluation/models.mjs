@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The models of the evaluation. Names with a colon are generated (bench/models.h), others are files that may be absent.
-import { existsSync } from 'node:fs';
+import { existsSync, readdirSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { repository } from './paths.mjs';
 
@@ -8,8 +8,14 @@ const folder = resolve(process.env.QUADMARK_MODELS ?? join(repository, '../share
 
 export const isGenerated = (name) => name.includes(':');
 
+// A glTF with files beside it has a folder of its own; names are without it, as rows tell them.
+const inFolders = existsSync(folder) ? readdirSync(folder, { withFileTypes: true }).filter((entry) => entry.isDirectory()).map(({ name }) => name) : [];
+
 /** As the worker takes it. */
-export const modelPath = (name) => (isGenerated(name) ? name : join(folder, name));
+export function modelPath(name) {
+  if (isGenerated(name)) return name;
+  return ['.', ...inFolders].map((inner) => join(folder, inner, name)).find((path) => existsSync(path)) ?? join(folder, name);
+}
 
 export const isPresent = (name) => isGenerated(name) || existsSync(modelPath(name));
 

@@ -13,8 +13,8 @@ const ATTACKS = {
   '16 bit': 'quantize:16', '14 bit': 'quantize:14', '11 bit': 'quantize:11', 'Taubin 1e-4': 'smooth:1e-4',
 };
 // Small models of web builds, most of them too small for a mark: the section of what has no figures says why.
-const SMALL = ['CesiumMan.glb', 'Fox/Fox.gltf', 'moltenDagger.glb', 'shaderBall.glb', 'riggedMesh.glb', 'morphLoader.glb', 'AnimatedMorphCube/AnimatedMorphCube.gltf',
-  'CubeScaledInstances/cube_att.gltf', 'SimpleSparseAccessor/SimpleSparseAccessor.gltf', 'Box_Draco.glb', 'bunny_gltf.drc'];
+const SMALL = ['CesiumMan.glb', 'Fox.gltf', 'moltenDagger.glb', 'shaderBall.glb', 'riggedMesh.glb', 'morphLoader.glb', 'AnimatedMorphCube.gltf',
+  'cube_att.gltf', 'SimpleSparseAccessor.gltf', 'Box_Draco.glb', 'bunny_gltf.drc'];
 const all = [...PRINTED, ...OTHERS, ...SMALL.map((model) => ({ model, settings: 'L=2' }))];
 const large = [...PRINTED, { model: 'sculpture:40000:3', settings: 'L=2' }, { model: 'part:12000:2', settings: 'L=3' }];
 const smaller = (context) => casesOf(context, all).map((one) => ({ scheme: 'paper', ...one, payload: 'image:24' }));
