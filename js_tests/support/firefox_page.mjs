@@ -40,6 +40,7 @@ function guardClick(element) {
   for (const type of types) addEventListener(type, guard, true);
   globalThis.endGuard = () => {
     for (const type of types) removeEventListener(type, guard, true);
+    delete globalThis.endGuard;
     return hit;
   };
 }
@@ -125,15 +126,23 @@ class Locator {
     return this.evaluate((element) => element.scrollIntoView({ block: 'nearest' }));
   }
 
-  /** Clicks where the element is; once more when it has moved away in the meantime and something else would have been hit. */
+  /**
+   * Clicks where the element is; once more when it has moved away in the meantime and something else would have been hit, or
+   * when it has been hidden or replaced and there is nothing to hit.
+   */
   async click() {
-    for (const end = Date.now() + PATIENCE; Date.now() < end;) {
+    let cause;
+    for (const end = Date.now() + PATIENCE; Date.now() < end; await pause(30)) {
       const element = await this.#usable();
-      await element.evaluate(guardClick);
-      await element.click();
-      if (await this.#page.evaluate(() => globalThis.endGuard())) return;
+      try {
+        await element.evaluate(guardClick);
+        await element.click();
+      } catch (error) {
+        cause = error;
+      }
+      if (await this.#page.evaluate(() => globalThis.endGuard?.())) return;
     }
-    throw new Error(`${JSON.stringify(this.#steps)} could not be clicked within ${PATIENCE} ms`);
+    throw new Error(`${JSON.stringify(this.#steps)} could not be clicked within ${PATIENCE} ms`, { cause });
   }
   async focus() {
     await (await this.#present()).focus();
