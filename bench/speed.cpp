@@ -16,25 +16,18 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 #include "quadmark/quadmark.h"
+#include "read_file.h"
 
 namespace {
 
 using namespace quadmark;
+using bench::readFile;
 using Bytes = std::vector<std::uint8_t>;
-
-Bytes readFile(const char* path) {
-  std::ifstream stream(path, std::ios::binary | std::ios::ate);
-  Bytes bytes(stream ? static_cast<std::size_t>(stream.tellg()) : 0);
-  stream.seekg(0);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  return bytes;
-}
 
 // A field of /proc/self/status, in bytes.
 long statusBytes(const std::string& field) {
@@ -100,9 +93,12 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: quadmark_speed IN KEY (PNG | ID) REPEATS\n");
     return 2;
   }
-  const Bytes file = readFile(argv[1]), keyText = readFile(argv[2]);
+  const auto input = readFile(argv[1]), keyText = readFile(argv[2]);
+  if (!input) return fail(input.error());
+  if (!keyText) return fail(keyText.error());
+  const Bytes& file = *input;
   const int repeats = std::max(1, std::atoi(argv[4]));
-  const auto key = parseKey({reinterpret_cast<const char*>(keyText.data()), keyText.size()});
+  const auto key = parseKey({reinterpret_cast<const char*>(keyText->data()), keyText->size()});
   if (!key) return fail(key.error());
   const auto model = readModel(file);
   if (!model) return fail(model.error());
@@ -113,7 +109,9 @@ int main(int argc, char** argv) {
   if (key->scheme == "robust") {
     embedRequest.id = std::strtoull(argv[3], nullptr, 16);
   } else {
-    auto image = decodePng(readFile(argv[3]));
+    const auto png = readFile(argv[3]);
+    if (!png) return fail(png.error());
+    auto image = decodePng(*png);
     if (!image) return fail(image.error());
     embedRequest.image = std::move(*image);
   }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "quadmark/io/drc.h"
+
 #include <cmath>
 
 #include "concat.h"
 #include "draco_codec.h"
 #include "gltf_buffers.h"
-#include "quadmark/io/drc.h"
 
 namespace quadmark {
 namespace io {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf_texture_shift.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "data_uri.h"
@@ -41,22 +41,6 @@ Pair texelsOf(JsonValue image, const GltfDocument& document, const Resources& re
   return {static_cast<double>(size[0]), static_cast<double>(size[1])};
 }
 
-// One component of a texture coordinate.
-double coordinateAt(const std::uint8_t* code, std::uint32_t type, double divisor) {
-  switch (type) {
-    case kGltfInt8:
-      return decodeComponent(load<std::int8_t>(code), divisor);
-    case kGltfUint8:
-      return decodeComponent(load<std::uint8_t>(code), divisor);
-    case kGltfInt16:
-      return decodeComponent(load<std::int16_t>(code), divisor);
-    case kGltfUint16:
-      return decodeComponent(load<std::uint16_t>(code), divisor);
-    default:
-      return double{load<float>(code)};
-  }
-}
-
 // The texture coordinates of an accessor's elements.
 class Coordinates {
  public:
@@ -70,7 +54,8 @@ class Coordinates {
   }
   [[nodiscard]] double operator()(std::uint32_t element, std::size_t axis) const {
     const std::uint8_t* code = bytes_ + std::size_t{element} * stride_ + axis * componentBytes(accessor_.componentType);
-    return coordinateAt(code, accessor_.componentType, divisor_);
+    return withComponent(accessor_.componentType,
+                         [&](auto component) { return decodeComponent(load<decltype(component)>(code), divisor_); });
   }
 
  private:
