@@ -49,6 +49,30 @@ async function changed(page, act) {
   return look(page);
 }
 
+inEach('nothing below the view moves when it comes', async (t, browser) => {
+  for (const [sample, verdict] of [['marked', 'match'], ['unmarked', 'none']]) {
+    const { page } = await openPage(t, browser);
+    await page.locator(`[data-sample="${sample}"]`).click();
+    // In each frame with a result: how far below the top of the view the buttons lie, by what the view does.
+    await page.evaluate(() => {
+      const view = document.getElementById('view'), saves = document.getElementById('save-report');
+      globalThis.distances = [];
+      const look = () => {
+        const { height, top } = saves.getBoundingClientRect();
+        if (height > 0) globalThis.distances.push([view.dataset.state ?? 'waiting', Math.round(top - view.getBoundingClientRect().top)]);
+        requestAnimationFrame(look);
+      };
+      look();
+    });
+    await waitFor(page, verdict);
+    assert.equal(await waitForView(page), 'ready');
+    await page.waitForTimeout(200);
+    const distances = await page.evaluate(() => globalThis.distances);
+    assert.ok(distances.some(([state]) => state !== 'ready') && distances.at(-1)[0] === 'ready', JSON.stringify(distances));
+    assert.equal(new Set(distances.map(([, distance]) => distance)).size, 1, `${sample}: ${JSON.stringify(distances)}`);
+  }
+});
+
 inEach('the model is drawn with its evidence, and turned by mouse, wheel, touch and keys', async (t, browser) => {
   const { page, seen } = await openPage(t, browser);
   assert.equal(seen.requests.some((url) => /scene-[^/]*\.js$/.test(url)), false, 'three.js waits until it is needed');

@@ -27,18 +27,26 @@ function isShown(element) {
   return width > 0 && height > 0 && getComputedStyle(element).visibility === 'visible';
 }
 
-/** In the page: keeps the next click from everything but `element`, until endGuard() says whether that was hit. */
+/**
+ * In the page: keeps the next click from everything but `element`, until endGuard() says whether that was clicked. Pressed
+ * on it and released beside it, because it moved in between, is no click.
+ */
 function guardClick(element) {
-  let hit = false;
+  let pressed = false, clicked;
+  const whenClicked = new Promise((resolve) => { clicked = () => resolve(true); });
   const guard = (event) => {
-    if (event.type === 'pointerdown') hit = element.contains(event.target);
-    if (hit) return;
+    const hit = element.contains(event.target);
+    if (event.type === 'pointerdown') pressed = hit;
+    if (event.type === 'click' && hit) clicked();
+    if (pressed) return;
     event.preventDefault();
     event.stopImmediatePropagation();
   };
   const types = ['pointerdown', 'mousedown', 'pointerup', 'mouseup', 'click'];
   for (const type of types) addEventListener(type, guard, true);
-  globalThis.endGuard = () => {
+  globalThis.endGuard = async () => {
+    // The click may come a little after the driver believes to have made it.
+    const hit = pressed && await Promise.race([whenClicked, new Promise((resolve) => { setTimeout(resolve, 2000, false); })]);
     for (const type of types) removeEventListener(type, guard, true);
     delete globalThis.endGuard;
     return hit;
@@ -288,7 +296,8 @@ export class FirefoxPage {
       rmSync(path);
       return { name: files[0], bytes };
     }
-    throw new Error(`${selector} downloaded nothing within ${PATIENCE} ms`);
+    const address = await this.locator(selector).evaluate((link) => link.href);
+    throw new Error(`${selector} (${address}) was not downloaded within ${PATIENCE} ms; there are [${readdirSync(downloads)}]`);
   }
 }
 

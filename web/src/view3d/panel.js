@@ -29,9 +29,10 @@ export class ViewPanel {
     this.close();
     const button = element('button', { type: 'button', class: 'view-start', 'data-t': request.kind === 'compare' ? 'compareLoad' : 'viewLoad' });
     button.addEventListener('click', () => this.#open(request));
-    this.#root.replaceChildren(button);
+    const waits = request.model.file.size > ASK_BYTES;
+    this.#root.replaceChildren(element('div', { class: 'view-stage' }, button), ...(waits ? [] : this.#unusable(request)));
     fillTexts(this.#root);
-    if (request.model.file.size > ASK_BYTES) return;
+    if (waits) return;
     this.#sight = new IntersectionObserver((seen) => {
       if (!seen.some(({ isIntersecting }) => isIntersecting)) return;
       this.#sight?.disconnect();
@@ -60,7 +61,7 @@ export class ViewPanel {
     const canvas = element('canvas', { tabindex: '0', role: 'img', 'data-t-label': 'viewLabel' });
     const status = element('p', { class: 'view-status', role: 'status' }, t('viewLoading'));
     const stage = element('div', { class: 'view-stage' }, canvas, status);
-    this.#root.replaceChildren(stage);
+    this.#root.replaceChildren(stage, ...this.#unusable(request));
     this.#root.dataset.state = 'loading';
     fillTexts(this.#root);
     const size = () => ({ width: Math.max(1, stage.clientWidth), height: Math.max(1, stage.clientHeight), pixelRatio: Math.min(MOST_PIXELS, devicePixelRatio) });
@@ -83,7 +84,8 @@ export class ViewPanel {
       if (data.type === 'picture') this.#showPrint(data.blob);
       if (data.type !== 'ready') return;
       status.remove();
-      this.#addControls(request, data, stage);
+      this.#root.querySelector('.view-waiting').replaceWith(...this.#controls(request, data, stage));
+      fillTexts(this.#root);
       this.#root.dataset.state = 'ready';
     };
     const { kind, ...models } = request;
@@ -100,46 +102,52 @@ export class ViewPanel {
     followKeys(canvas, move);
   }
 
-  #addControls({ kind }, { coloured, most }, stage) {
-    const legend = kind === 'compare'
-      ? element('div', { class: 'legend' }, element('span', { 'data-t': 'legendStill' }), element('span', { class: 'ramp moved', 'aria-hidden': 'true' }), element('span', {}, t('legendMoved', percent(most))))
-      : element('div', { class: 'legend' }, element('span', { 'data-t': 'legendAgainst' }), element('span', { class: 'ramp evidence', 'aria-hidden': 'true' }), element('span', { 'data-t': 'legendFor' }));
-    const row = element('div', { class: 'view-controls' });
-    if (kind === 'compare') {
-      const slider = element('input', { type: 'range', min: 0, max: 100, value: 50, class: 'split', 'data-t-label': 'compareSlider' });
-      const line = element('span', { class: 'split-line', 'aria-hidden': 'true' });
-      const follow = () => {
-        line.dataset.at = slider.value;
-        this.#send({ type: 'split', share: slider.value / 100 });
-        line.style.setProperty('inset-inline-start', `${slider.value}%`);
-      };
-      slider.addEventListener('input', follow);
-      stage.append(line);
-      const note = element('p', { class: 'faint', 'data-t': 'compareSlider' });
-      const choose = (mode) => {
-        const wipe = mode === 'wipe';
-        slider.hidden = line.hidden = note.hidden = !wipe;
-        legend.hidden = wipe;
-        this.#send({ type: 'colour', coloured: !wipe });
-        if (wipe) follow();
-        else this.#send({ type: 'split', share: null });
-      };
-      row.append(segments('compare-mode', 'compare', [['wipe', 'compareWipe'], ['heat', 'compareHeat']], 'wipe', choose), legend);
-      this.#root.append(slider, note, row);
-      choose('wipe');
-    } else if (coloured) {
-      const note = element('p', { class: 'faint', 'data-t': 'legendNote' });
-      const choose = (mode) => {
-        legend.hidden = note.hidden = mode === 'plain';
-        this.#send({ type: 'colour', coloured: mode === 'evidence' });
-      };
-      row.append(segments('shade', 'shading', [['evidence', 'shadeEvidence'], ['plain', 'shadePlain']], 'evidence', choose), legend);
-      this.#root.append(row, note);
-    } else {
-      this.#root.append(element('p', { class: 'faint', 'data-t': 'noEvidence' }));
-    }
-    this.#root.append(element('p', { class: 'faint view-help', 'data-t': 'viewHelp' }));
-    fillTexts(this.#root);
+  /** The controls' place while there is nothing to control: what stands below must not move when they come. */
+  #unusable(request) {
+    return [element('div', { class: 'view-waiting' }, ...this.#controls(request, { coloured: request.evidence?.length > 0, most: 0 }))];
+  }
+
+  /** Elements below the stage; without `stage` they only take their room. */
+  #controls({ kind }, { coloured, most }, stage = null) {
+    const help = element('p', { class: 'faint view-help', 'data-t': 'viewHelp' });
+    if (kind === 'compare') return [...this.#comparing(most, stage), help];
+    return [...(coloured ? this.#shading() : [element('p', { class: 'faint', 'data-t': 'noEvidence' })]), help];
+  }
+
+  #comparing(most, stage) {
+    const legend = element('div', { class: 'legend' }, element('span', { 'data-t': 'legendStill' }), element('span', { class: 'ramp moved', 'aria-hidden': 'true' }), element('span', {}, t('legendMoved', percent(most))));
+    const slider = element('input', { type: 'range', min: 0, max: 100, value: 50, class: 'split', 'data-t-label': 'compareSlider' });
+    const line = element('span', { class: 'split-line', 'aria-hidden': 'true' });
+    const follow = () => {
+      line.dataset.at = slider.value;
+      this.#send({ type: 'split', share: slider.value / 100 });
+      line.style.setProperty('inset-inline-start', `${slider.value}%`);
+    };
+    slider.addEventListener('input', follow);
+    const note = element('p', { class: 'faint', 'data-t': 'compareSlider' });
+    const choose = (mode) => {
+      const wipe = mode === 'wipe';
+      slider.hidden = line.hidden = note.hidden = !wipe;
+      legend.hidden = wipe;
+      this.#send({ type: 'colour', coloured: !wipe });
+      if (wipe) follow();
+      else this.#send({ type: 'split', share: null });
+    };
+    stage?.append(line);
+    const modes = segments('compare-mode', 'compare', [['wipe', 'compareWipe'], ['heat', 'compareHeat']], 'wipe', choose);
+    if (stage) choose('wipe');
+    else legend.hidden = true;
+    return [slider, note, element('div', { class: 'view-controls' }, modes, legend)];
+  }
+
+  #shading() {
+    const legend = element('div', { class: 'legend' }, element('span', { 'data-t': 'legendAgainst' }), element('span', { class: 'ramp evidence', 'aria-hidden': 'true' }), element('span', { 'data-t': 'legendFor' }));
+    const note = element('p', { class: 'faint', 'data-t': 'legendNote' });
+    const choose = (mode) => {
+      legend.hidden = note.hidden = mode === 'plain';
+      this.#send({ type: 'colour', coloured: mode === 'evidence' });
+    };
+    return [element('div', { class: 'view-controls' }, segments('shade', 'shading', [['evidence', 'shadeEvidence'], ['plain', 'shadePlain']], 'evidence', choose), legend), note];
   }
 
   /** A picture of the view stands in for the canvas on paper. */
