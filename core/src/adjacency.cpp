@@ -186,9 +186,14 @@ void collectEdges(const Mesh& mesh, WeldedMesh& out) {
 
 }  // namespace
 
-WeldedMesh weld(const Mesh& mesh) {
+WeldedMesh weldVertices(const Mesh& mesh) {
   WeldedMesh out;
   weldPositions(mesh, out);
+  return out;
+}
+
+WeldedMesh weld(const Mesh& mesh) {
+  WeldedMesh out = weldVertices(mesh);
   collectEdges(mesh, out);
   weldGrids(mesh, out);
   return out;
@@ -209,19 +214,19 @@ bool hasTwins(const std::vector<double>& positions, const std::vector<std::uint3
   return false;
 }
 
-FaceRings faceRings(const Mesh& mesh, const WeldedMesh& welded) {
+FaceRings faceRings(const Mesh& mesh, const std::vector<std::uint32_t>& weldedOf, std::uint32_t count) {
   FaceRings out;
-  const std::size_t count = welded.vertexCount(), faces = mesh.faceCount();
-  out.offsets.assign(count + 1, 0);
+  const std::size_t faces = mesh.faceCount();
+  out.offsets.assign(count + std::size_t{1}, 0);
   const auto forEachCorner = [&](const auto& visit) {
     for (std::size_t f = 0; f < faces; ++f)
       for (std::size_t c = mesh.faceBegin(f); c < mesh.faceEnd(f); ++c) {
-        const std::uint32_t w = welded.weldedOf[mesh.faceVertices[c]];
+        const std::uint32_t w = weldedOf[mesh.faceVertices[c]];
         // A degenerate face may visit a vertex twice. Only a short way back: a repeat costs a little time, never a
         // wrong answer, and a hostile million-gon must not cost a quadratic scan.
         bool repeated = false;
         for (std::size_t e = std::max(mesh.faceBegin(f), c < 8 ? std::size_t{0} : c - 8); e < c && !repeated; ++e)
-          repeated = welded.weldedOf[mesh.faceVertices[e]] == w;
+          repeated = weldedOf[mesh.faceVertices[e]] == w;
         if (!repeated) visit(w, static_cast<std::uint32_t>(f));
       }
   };

@@ -272,8 +272,7 @@ MarkedMesh Embedder::result() {
   out.repeats = static_cast<double>(out.cells) / static_cast<double>(pieces_.size());
   out.leastRepeats = *std::min_element(copies_.begin(), copies_.end());
   out.diagonal = diagonal_;
-  out.welded.weldedOf = std::move(welded_.weldedOf);
-  out.welded.edgeOffsets = std::move(welded_.edgeOffsets);
+  out.welding = welded_.takeWelding();
   return out;
 }
 

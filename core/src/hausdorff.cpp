@@ -42,19 +42,19 @@ double squaredToFace(const Point& p, const Mesh& mesh, const std::vector<double>
 /// place.
 class LocalDistance {
  public:
-  LocalDistance(const Mesh& mesh, const WeldedMesh& welded, const std::vector<double>& other)
-      : mesh_(mesh), welded_(welded), rings_(faceRings(mesh, welded)), other_(other) {}
+  LocalDistance(const Mesh& mesh, const Welding& welding, const std::vector<double>& other)
+      : mesh_(mesh), welding_(welding), rings_(faceRings(mesh, welding.weldedOf, welding.count)), other_(other) {}
 
   /// The largest squared distance.
   [[nodiscard]] double run() {
     // First mesh vertex of each welded one: twins move alike, or their own faces tell.
-    std::vector<std::uint8_t> seen(welded_.vertexCount(), 0);
+    std::vector<std::uint8_t> seen(welding_.count, 0);
     for (std::size_t v = 0; v < mesh_.vertexCount(); ++v) {
-      const std::uint32_t w = welded_.weldedOf[v];
+      const std::uint32_t w = welding_.weldedOf[v];
       if (w == kNoVertex || seen[w] != 0) continue;
       seen[w] = 1;
       const std::uint32_t alone[] = {w};
-      sample(pointAt(mesh_.positions, v), pointAt(other_, v), alone);
+      sample(pointAt(mesh_.positions, v), pointAt(other_, v), alone, kNoVertex);
     }
     for (std::size_t f = 0; f < mesh_.faceCount(); ++f) sampleFace(f);
     return worst_;
@@ -71,7 +71,7 @@ class LocalDistance {
       farthest = std::max(farthest, squared(pointAt(other_, v) - pointAt(mesh_.positions, v)));
     }
     if (farthest <= worst_) return;
-    const auto corner = [&](std::size_t c) { return welded_.weldedOf[mesh_.faceVertices[c]]; };
+    const auto corner = [&](std::size_t c) { return welding_.weldedOf[mesh_.faceVertices[c]]; };
     const auto middle = [&](const std::vector<double>& positions, std::size_t c, std::size_t d) {
       return 0.5 * (pointAt(positions, mesh_.faceVertices[c]) + pointAt(positions, mesh_.faceVertices[d]));
     };
@@ -81,24 +81,27 @@ class LocalDistance {
     };
     for (std::size_t c = begin, d = end - 1; c < end; d = c++) {
       const std::uint32_t ends[] = {corner(c), corner(d)};
-      sample(middle(mesh_.positions, c, d), middle(other_, c, d), ends);
+      sample(middle(mesh_.positions, c, d), middle(other_, c, d), ends, face);
     }
     for (std::size_t c = begin + 2; c < end; ++c) {
       const std::uint32_t corners[] = {corner(begin), corner(c - 1), corner(c)};
-      sample(centre(mesh_.positions, c), centre(other_, c), corners);
+      sample(centre(mesh_.positions, c), centre(other_, c), corners, face);
     }
   }
 
   /// The same place on both surfaces: their distance is an upper bound for both directions.
-  void sample(const Point& here, const Point& there, std::span<const std::uint32_t> around) {
+  /// @param own  the face it lies in, most often the nearest one, or kNoVertex
+  void sample(const Point& here, const Point& there, std::span<const std::uint32_t> around, std::size_t own) {
     const double bound = squared(there - here);
     if (bound <= worst_) return;
-    distance(here, bound, other_, around);
-    distance(there, bound, mesh_.positions, around);
+    distance(here, bound, other_, around, own);
+    distance(there, bound, mesh_.positions, around, own);
   }
 
   /// From p, at most `best` away, to the faces at the vertices `around` of the surface with these positions.
-  void distance(const Point& p, double best, const std::vector<double>& to, std::span<const std::uint32_t> around) {
+  void distance(const Point& p, double best, const std::vector<double>& to, std::span<const std::uint32_t> around,
+                std::size_t own) {
+    if (own != kNoVertex) best = std::min(best, squaredToFace(p, mesh_, to, own));
     if (best <= worst_) return;
     for (std::uint32_t vertex : around)
       for (std::uint32_t face : rings_.facesOf(vertex)) {
@@ -109,7 +112,7 @@ class LocalDistance {
   }
 
   const Mesh& mesh_;
-  const WeldedMesh& welded_;
+  const Welding& welding_;
   const FaceRings rings_;
   const std::vector<double>& other_;
   double worst_ = 0;
@@ -141,12 +144,12 @@ void oneSided(const Mesh& from, const TriangleTree& tree, int samplesPerFace, do
 
 }  // namespace
 
-double detail::hausdorffLocal(const Mesh& a, const std::vector<double>& b, const WeldedMesh& welded) {
-  return std::sqrt(LocalDistance(a, welded, b).run());
+double detail::hausdorffLocal(const Mesh& a, const std::vector<double>& b, const Welding& welding) {
+  return std::sqrt(LocalDistance(a, welding, b).run());
 }
 
 double hausdorffLocal(const Mesh& a, const Mesh& b) {
-  return detail::hausdorffLocal(a, b.positions, weld(a));
+  return detail::hausdorffLocal(a, b.positions, weldVertices(a).takeWelding());
 }
 
 double hausdorff(const Mesh& a, const Mesh& b, int samplesPerFace) {

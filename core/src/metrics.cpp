@@ -28,8 +28,8 @@ struct NormalPair {
 
 /// Area-weighted normals per welded vertex, not normalised. A polygon counts by its vector area (Newell), the same for
 /// any choice of first corner.
-std::vector<NormalPair> vertexNormals(const Mesh& mesh, const std::vector<double>& marked, const WeldedMesh& welded) {
-  std::vector<NormalPair> normals(welded.vertexCount());
+std::vector<NormalPair> vertexNormals(const Mesh& mesh, const std::vector<double>& marked, const Welding& welding) {
+  std::vector<NormalPair> normals(welding.count);
   const auto areaOf = [&](const std::vector<double>& positions, std::size_t begin, std::size_t end) {
     const Point first = pointAt(positions, mesh.faceVertices[begin]);
     Point area;
@@ -44,7 +44,7 @@ std::vector<NormalPair> vertexNormals(const Mesh& mesh, const std::vector<double
     if (end - begin < 3) continue;
     const Point before = areaOf(mesh.positions, begin, end), after = areaOf(marked, begin, end);
     for (std::size_t c = begin; c < end; ++c) {
-      NormalPair& normal = normals[welded.weldedOf[mesh.faceVertices[c]]];
+      NormalPair& normal = normals[welding.weldedOf[mesh.faceVertices[c]]];
       normal.before = normal.before + before;
       normal.after = normal.after + after;
     }
@@ -79,10 +79,10 @@ void measureDisplacement(const Mesh& original, const std::vector<double>& marked
   }
 }
 
-void measureNormals(const Mesh& original, const std::vector<double>& marked, const WeldedMesh& welded,
+void measureNormals(const Mesh& original, const std::vector<double>& marked, const Welding& welding,
                     Distortion& out) {
   constexpr double kPi = 3.14159265358979323846;
-  const std::vector<NormalPair> normals = vertexNormals(original, marked, welded);
+  const std::vector<NormalPair> normals = vertexNormals(original, marked, welding);
   double count = 0, squares = 0, sum = 0;
   for (const auto& [before, after] : normals) {
     if (!(squared(before) > 0) || !(squared(after) > 0)) continue;
@@ -101,16 +101,16 @@ void measureNormals(const Mesh& original, const std::vector<double>& marked, con
 }  // namespace
 
 Distortion distortion(const Mesh& original, const Mesh& marked) {
-  return distortion(original, marked.positions, weld(original), boundingDiagonal(original));
+  return distortion(original, marked.positions, weldVertices(original).takeWelding(), boundingDiagonal(original));
 }
 
-Distortion distortion(const Mesh& original, const std::vector<double>& marked, const WeldedMesh& welded,
+Distortion distortion(const Mesh& original, const std::vector<double>& marked, const Welding& welding,
                       double diagonal) {
   assert(original.positions.size() == marked.size());
   Distortion out;
   measureDisplacement(original, marked, diagonal, out);
-  measureNormals(original, marked, welded, out);
-  if (diagonal > 0) out.hausdorffRel = detail::hausdorffLocal(original, marked, welded) / diagonal;
+  measureNormals(original, marked, welding, out);
+  if (diagonal > 0) out.hausdorffRel = detail::hausdorffLocal(original, marked, welding) / diagonal;
   return out;
 }
 

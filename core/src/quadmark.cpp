@@ -160,8 +160,8 @@ Result<EmbedResponse> embed(std::span<const std::uint8_t> file, const Resources&
   if (!marked) return marked.error();
   if (!tell(request.progress, "report", 0.95)) return cancelled();
 
-  const Distortion measured = distortion(mesh, marked->positions, marked->welded, marked->diagonal);
-  marked->welded = WeldedMesh{};  // not needed while the file is copied
+  const Distortion measured = distortion(mesh, marked->positions, marked->welding, marked->diagonal);
+  marked->welding = Welding{};  // not needed while the file is copied
 
   EmbedResponse response;
   auto patched = (*model)->patch(file, resources, marked->positions);

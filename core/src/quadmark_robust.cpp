@@ -126,7 +126,7 @@ Result<EmbedResponse> embedRobustFile(std::span<const std::uint8_t> file, const 
   }
   if (!tell(request.progress, "report", 0.97)) return cancelled();
   const double diagonal = boundingDiagonal(mesh);
-  const Distortion measured = distortion(mesh, marked->embedding.positions, weld(mesh), diagonal);
+  const Distortion measured = distortion(mesh, marked->embedding.positions, marked->embedding.welding, diagonal);
 
   EmbedResponse response;
   auto patched = (*model)->patch(file, resources, marked->embedding.positions);

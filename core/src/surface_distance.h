@@ -7,6 +7,6 @@
 namespace quadmark::detail {
 
 /// hausdorffLocal() for callers that have welded `a` already.
-[[nodiscard]] double hausdorffLocal(const Mesh& a, const std::vector<double>& b, const WeldedMesh& welded);
+[[nodiscard]] double hausdorffLocal(const Mesh& a, const std::vector<double>& b, const Welding& welding);
 
 }  // namespace quadmark::detail

@@ -33,7 +33,7 @@ struct MarkedMesh {
   std::uint32_t repairs = 0;          ///< sets broken and cells rewritten by the verification
   Guarantees guarantees;
   double diagonal = 0;                ///< boundingDiagonal() of the mesh before
-  WeldedMesh welded;                  ///< weldedOf and vertexCount() only, numbered in an order of its own
+  Welding welding;                    ///< numbered in an order of its own
 };
 
 /// Marks a mesh.

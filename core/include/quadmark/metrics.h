@@ -31,9 +31,9 @@ struct Distortion {
 
 /// The same without a second copy of the connectivity.
 /// @param marked    3 per vertex of `original`.
-/// @param welded    weld(original), in any numbering; only weldedOf and vertexCount() are used.
+/// @param welding   of `original`, in any numbering.
 /// @param diagonal  boundingDiagonal(original).
-[[nodiscard]] Distortion distortion(const Mesh& original, const std::vector<double>& marked, const WeldedMesh& welded,
+[[nodiscard]] Distortion distortion(const Mesh& original, const std::vector<double>& marked, const Welding& welding,
                                     double diagonal);
 
 /// Two-sided Hausdorff distance in file units, in the manner of Metro (Cignoni et al. 1998) for meshes with the same

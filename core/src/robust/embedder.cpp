@@ -177,7 +177,6 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   if (cancelled("surface", 0)) return aborted;
   Surface surface = makeSurface(mesh);
   const Carriers carriers = selectCarriers(surface, Prf(keys.select));
-  forgetNeighbours(surface);
   std::vector<double> positions = surface.welded.positions;
   RobustEmbedding out;
 
@@ -265,6 +264,7 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   out.ringBodyPositions = countSet(ringHit[1]);
   out.diamondPositions = countSet(diamondHit[0]);
   out.diamondBodyPositions = countSet(diamondHit[1]);
+  out.welding = surface.welded.takeWelding();
   return out;
 }
 

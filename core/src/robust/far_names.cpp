@@ -10,6 +10,31 @@ namespace {
 
 constexpr std::size_t kNearest = 3;
 
+// The vertices along the sides of the faces around each one, most of them twice.
+class Neighbours {
+ public:
+  explicit Neighbours(const Surface& surface) : offsets_(surface.vertexCount() + 1, 0), lists_(2 * surface.corners.size()) {
+    for (const std::uint32_t v : surface.corners) offsets_[v + 1] += 2;
+    for (std::size_t v = 1; v < offsets_.size(); ++v) offsets_[v] += offsets_[v - 1];
+    std::vector<std::uint32_t> cursor(offsets_.begin(), offsets_.end() - 1);
+    for (std::uint32_t f = 0; f < surface.faceCount(); ++f) {
+      const auto face = surface.face(f);
+      std::uint32_t from = face.back();
+      for (const std::uint32_t to : face) {
+        lists_[cursor[from]++] = to;
+        lists_[cursor[to]++] = from;
+        from = to;
+      }
+    }
+  }
+  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t vertex) const {
+    return {lists_.data() + offsets_[vertex], offsets_[vertex + 1] - offsets_[vertex]};
+  }
+
+ private:
+  std::vector<std::uint32_t> offsets_, lists_;
+};
+
 struct Arrival {
   std::uint32_t source = kNoVertex;
   std::uint32_t distance = 0;
@@ -19,6 +44,7 @@ struct Arrival {
 // several equally near ones those are depends on the order of vertices, how far they are does not.
 std::vector<std::array<Arrival, kNearest>> nearestSources(const Surface& surface,
                                                           const std::vector<std::uint32_t>& sources) {
+  const Neighbours neighbours(surface);
   std::vector<std::array<Arrival, kNearest>> reached(surface.vertexCount());
   struct Visit {
     std::uint32_t vertex, source;
@@ -33,7 +59,7 @@ std::vector<std::array<Arrival, kNearest>> nearestSources(const Surface& surface
       while (slot < kNearest && arrivals[slot].source != kNoVertex && arrivals[slot].source != visit.source) ++slot;
       if (slot == kNearest || arrivals[slot].source == visit.source) continue;
       arrivals[slot] = {visit.source, distance};
-      for (const std::uint32_t n : surface.welded.neighboursOf(visit.vertex)) next.push_back({n, visit.source});
+      for (const std::uint32_t n : neighbours.of(visit.vertex)) next.push_back({n, visit.source});
     }
     front.swap(next);
   }

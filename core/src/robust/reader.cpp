@@ -124,7 +124,6 @@ struct MeshReader::State {
     surface = makeSurface(mesh);
     if (mirrored) turnOver(surface);
     carriers = selectCarriers(surface, Prf(keys.select));
-    forgetNeighbours(surface);
   }
 
   // One side at a time: the other one is rarely asked for, and would double the memory.

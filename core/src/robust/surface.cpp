@@ -84,14 +84,10 @@ void collectRings(Surface& out) {
 
 Surface makeSurface(const Mesh& mesh) {
   Surface out;
-  out.welded = weld(mesh);
+  out.welded = weldVertices(mesh);
   collectFaces(mesh, out);
   collectRings(out);
   return out;
-}
-
-void forgetNeighbours(Surface& surface) {
-  release(surface.welded.neighbours);
 }
 
 void forgetRings(Surface& surface) {

@@ -16,7 +16,7 @@ namespace quadmark::robust {
 inline constexpr std::uint32_t kMinRing = 3, kMaxRing = 24;
 
 struct Surface {
-  WeldedMesh welded;
+  WeldedMesh welded;                        ///< without edges
   std::vector<std::uint32_t> faceOffsets;   ///< faces + 1 corner offsets
   std::vector<std::uint32_t> corners;       ///< welded vertex per corner; no corner equals its successor
   std::vector<std::uint32_t> ringOffsets;   ///< welded vertices + 1
@@ -38,8 +38,6 @@ struct Surface {
 /// @param mesh  must validate(). Cost: linear.
 [[nodiscard]] Surface makeSurface(const Mesh& mesh);
 
-/// Frees what only labels are made from (`welded.neighbours`).
-void forgetNeighbours(Surface& surface);
 /// Frees rings and corner counts; ring() may not be called any more.
 void forgetRings(Surface& surface);
 

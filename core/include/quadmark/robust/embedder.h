@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "quadmark/adjacency.h"
 #include "quadmark/mesh.h"
 #include "quadmark/result.h"
 #include "quadmark/robust/coded.h"
@@ -42,6 +43,7 @@ struct RobustEmbedding {
   std::uint32_t headPositions = 0;    ///< coded positions of the head that either layer holds
   std::uint32_t ringBodyPositions = 0;
   std::uint32_t diamondBodyPositions = 0;
+  Welding welding;                    ///< of the mesh: marking changes nothing in it
 };
 
 /// Writes both layers.
