@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 namespace quadmark::robust {
 namespace {
@@ -50,47 +51,58 @@ void DiamondQueues::Queue::reserve(std::size_t kept) {
   pairs.reserve(pruneAt);
 }
 
+// A pair is looked at some hundred times per vertex, so candidates of one fine cell come together: they reach the same
+// queues, whose centres and limits then lie side by side. What a queue keeps does not depend on the order.
 DiamondQueues::DiamondQueues(const std::vector<Candidate>& candidates, const DeltaClass& shape,
                              const std::vector<std::uint32_t>& goodCells, std::uint32_t wanted)
     : queues_(2 * goodCells.size()) {
   for (Queue& queue : queues_) queue.reserve(wanted);
-  // Where the good cells from each number on begin: those of a row within reach are neighbours in the list.
-  std::vector<std::uint32_t> firstFrom(shape.cells() + 1);
-  for (std::uint32_t number = 0, g = 0; number <= shape.cells(); ++number) {
-    firstFrom[number] = g;
-    if (g < goodCells.size() && goodCells[g] == number) ++g;
-  }
-  const int rows = static_cast<int>(shape.side), columns = static_cast<int>(shape.spanSide());
-  std::vector<float> edgeCentres, spanCentres;
-  for (int row = 0; row < rows; ++row) edgeCentres.push_back(static_cast<float>(edgeCentre(row, shape)));
-  for (int column = 0; column < columns; ++column)
-    spanCentres.push_back(static_cast<float>(spanCentre(column, shape)));
+  const auto cellOf = [&](const Candidate& c) { return fineCell(c.edgeRatio, c.spanRatio, shape); };
+  // Ratios at the very edge may round into a row or column beyond the last one.
+  const std::uint32_t rowLength = shape.spanSide() + 1;
+  const auto placeOf = [&](const Candidate& c) {
+    const FineCell cell = cellOf(c);
+    return std::min(cell.edge, shape.side) * rowLength + std::min(cell.span, shape.spanSide());
+  };
+  std::vector<std::uint32_t> begin((shape.side + 1) * rowLength + 1, 0), order(candidates.size());
+  for (const Candidate& c : candidates) ++begin[placeOf(c)];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  for (std::uint32_t i = 0; i < candidates.size(); ++i) order[--begin[placeOf(candidates[i])]] = i;
 
-  for (std::uint32_t i = 0; i < candidates.size(); ++i) {
-    const Candidate& c = candidates[i];
-    const FineCell own = fineCell(c.edgeRatio, c.spanRatio, shape);
-    const int ownRow = static_cast<int>(own.edge), ownColumn = static_cast<int>(own.span);
-    // Costs are squares: only their order counts, and a pair is looked at some hundred times per vertex.
-    const float shorter = std::min(c.edgeLength, c.spanLength), scale = c.reluctance / shorter;
-    const float edgeWeight = kSlideWeight * c.edgeLength * c.edgeLength * scale * scale;
-    const float spanWeight = kSlideWeight * c.spanLength * c.spanLength * scale * scale;
-    const float gapCost = c.gap * c.gap * scale * scale;
-    const int left = std::max(0, ownColumn - kFar), right = std::min(columns, ownColumn + kFar + 1);
-    const int bottom = std::min(rows, ownRow + kFar + 1);
-    for (int row = std::max(0, ownRow - kFar); row < bottom; ++row) {
-      const float edge = edgeCentres[row] - c.edgeRatio, edgeCost = edgeWeight * edge * edge;
-      const bool rowIsFar = std::abs(row - ownRow) > kNear;
-      const std::uint32_t end = firstFrom[row * columns + right];
-      for (std::uint32_t g = firstFrom[row * columns + left]; g < end; ++g) {
-        const int column = static_cast<int>(goodCells[g]) - row * columns;
-        const float span = spanCentres[column] - c.spanRatio;
-        const float cost = edgeCost + spanWeight * span * span + gapCost;
-        Queue& queue = queues_[2 * g + (rowIsFar || std::abs(column - ownColumn) > kNear)];
-        if (!(cost < queue.limit)) continue;
-        queue.pairs.push_back(std::uint64_t{bitsOf(cost)} << 32 | i);
+  std::vector<Queue*> reached(goodCells.size());
+  std::vector<float> edge(goodCells.size()), span(goodCells.size()), limit(goodCells.size()), cost(goodCells.size());
+  for (std::size_t place = 0; place + 1 < begin.size(); ++place) {
+    if (begin[place] == begin[place + 1]) continue;
+    const FineCell own = cellOf(candidates[order[begin[place]]]);
+    std::size_t count = 0;
+    for (std::size_t g = 0; g < goodCells.size(); ++g) {
+      const FineCell good = FineCell::ofNumber(goodCells[g], shape);
+      const int away = std::max(std::abs(static_cast<int>(good.edge - own.edge)), std::abs(static_cast<int>(good.span - own.span)));
+      if (away > kFar) continue;
+      reached[count] = &queues_[2 * g + (away > kNear)];
+      limit[count] = reached[count]->limit;
+      edge[count] = static_cast<float>(edgeCentre(good.edge, shape));
+      span[count++] = static_cast<float>(spanCentre(good.span, shape));
+    }
+    for (std::uint32_t k = begin[place]; k < begin[place + 1]; ++k) {
+      const Candidate& c = candidates[order[k]];
+      // Costs are squares: only their order counts.
+      const float shorter = std::min(c.edgeLength, c.spanLength), scale = c.reluctance / shorter;
+      const float edgeWeight = kSlideWeight * c.edgeLength * c.edgeLength * scale * scale;
+      const float spanWeight = kSlideWeight * c.spanLength * c.spanLength * scale * scale;
+      const float gapCost = c.gap * c.gap * scale * scale;
+      for (std::size_t j = 0; j < count; ++j) {
+        const float e = edge[j] - c.edgeRatio, s = span[j] - c.spanRatio;
+        cost[j] = edgeWeight * e * e + spanWeight * s * s + gapCost;
+      }
+      for (std::size_t j = 0; j < count; ++j) {
+        if (!(cost[j] < limit[j])) continue;
+        Queue& queue = *reached[j];
+        queue.pairs.push_back(std::uint64_t{bitsOf(cost[j])} << 32 | order[k]);
         if (queue.pairs.size() < queue.pruneAt) continue;
         queue.prune(wanted);
         queue.reserve(std::max<std::size_t>(queue.pairs.size(), wanted));
+        limit[j] = queue.limit;
       }
     }
   }
