@@ -11,6 +11,7 @@
 #include <limits>
 #include <vector>
 
+#include "parallel.h"
 #include "point_triangle.h"
 #include "quadmark/adjacency.h"
 #include "quadmark/metrics.h"
@@ -42,25 +43,18 @@ double squaredToFace(const Point& p, const Mesh& mesh, const std::vector<double>
 /// place.
 class LocalDistance {
  public:
-  LocalDistance(const Mesh& mesh, const Welding& welding, const std::vector<double>& other)
-      : mesh_(mesh), welding_(welding), rings_(faceRings(mesh, welding.weldedOf, welding.count)), other_(other) {}
+  /// @param worst  distances up to this one need not be found; squared
+  LocalDistance(const Mesh& mesh, const Welding& welding, const FaceRings& rings, const std::vector<double>& other, double worst)
+      : mesh_(mesh), welding_(welding), rings_(rings), other_(other), worst_(worst) {}
 
-  /// The largest squared distance.
-  [[nodiscard]] double run() {
-    // First mesh vertex of each welded one: twins move alike, or their own faces tell.
-    std::vector<std::uint8_t> seen(welding_.count, 0);
-    for (std::size_t v = 0; v < mesh_.vertexCount(); ++v) {
-      const std::uint32_t w = welding_.weldedOf[v];
-      if (w == kNoVertex || seen[w] != 0) continue;
-      seen[w] = 1;
-      const std::uint32_t alone[] = {w};
-      sample(pointAt(mesh_.positions, v), pointAt(other_, v), alone, kNoVertex);
-    }
-    for (std::size_t f = 0; f < mesh_.faceCount(); ++f) sampleFace(f);
-    return worst_;
+  /// The largest squared distance so far.
+  [[nodiscard]] double worst() const { return worst_; }
+
+  void sampleVertex(std::size_t vertex) {
+    const std::uint32_t around[] = {welding_.weldedOf[vertex]};
+    sample(pointAt(mesh_.positions, vertex), pointAt(other_, vertex), around, kNoVertex);
   }
 
- private:
   /// Middles of the boundary edges and of the fanned triangles. The middle of two or three points moves no farther than
   /// the one of them that moves farthest, so most faces of a marked model are passed over.
   void sampleFace(std::size_t face) {
@@ -89,6 +83,7 @@ class LocalDistance {
     }
   }
 
+ private:
   /// The same place on both surfaces: their distance is an upper bound for both directions.
   /// @param own  the face it lies in, most often the nearest one, or kNoVertex
   void sample(const Point& here, const Point& there, std::span<const std::uint32_t> around, std::size_t own) {
@@ -113,9 +108,9 @@ class LocalDistance {
 
   const Mesh& mesh_;
   const Welding& welding_;
-  const FaceRings rings_;
+  const FaceRings& rings_;
   const std::vector<double>& other_;
-  double worst_ = 0;
+  double worst_;
 };
 
 /// Samples of `from` against `tree`: `worst` rises to the largest squared distance.
@@ -145,7 +140,22 @@ void oneSided(const Mesh& from, const TriangleTree& tree, int samplesPerFace, do
 }  // namespace
 
 double detail::hausdorffLocal(const Mesh& a, const std::vector<double>& b, const Welding& welding) {
-  return std::sqrt(LocalDistance(a, welding, b).run());
+  const FaceRings rings = faceRings(a, welding.weldedOf, welding.count);
+  // Of each welded vertex one that makes it up: twins move alike, or their own faces tell.
+  std::vector<std::uint32_t> vertices(welding.count);
+  for (std::size_t v = a.vertexCount(); v-- > 0;)
+    if (welding.weldedOf[v] != kNoVertex) vertices[welding.weldedOf[v]] = static_cast<std::uint32_t>(v);
+  double worst = largestInParts(vertices.size(), [&](std::size_t begin, std::size_t end) {
+    LocalDistance distance(a, welding, rings, b, 0);
+    for (std::size_t i = begin; i < end; ++i) distance.sampleVertex(vertices[i]);
+    return distance.worst();
+  });
+  worst = largestInParts(a.faceCount(), [&](std::size_t begin, std::size_t end) {
+    LocalDistance distance(a, welding, rings, b, worst);
+    for (std::size_t f = begin; f < end; ++f) distance.sampleFace(f);
+    return distance.worst();
+  });
+  return std::sqrt(worst);
 }
 
 double hausdorffLocal(const Mesh& a, const Mesh& b) {

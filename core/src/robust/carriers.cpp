@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "parallel.h"
 #include "quadmark/trig.h"
 
 namespace quadmark::robust {
@@ -26,8 +27,9 @@ Carriers selectCarriers(const Surface& surface, const Prf& select) {
   const Labels labels = refineLabels(surface);
   const std::uint32_t count = surface.vertexCount();
   std::vector<std::uint64_t> rank(count, 0);
-  for (std::uint32_t v = 0; v < count; ++v)
+  forEachInParts(count, [&](std::size_t v) {
     if (labels.label[v] != 0) rank[v] = select(labels.label[v]);
+  });
   Carriers out;
   out.ringOffsets.push_back(0);
   std::uint32_t order[kMaxRing];

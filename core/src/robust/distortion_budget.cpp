@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "parallel.h"
 #include "point_triangle.h"
+#include "release.h"
 #include "sorting.h"
 
 namespace quadmark::robust {
@@ -64,7 +66,7 @@ ChangeMeter::ChangeMeter(const Surface& surface, const FacesAround& facesAround)
 void ChangeMeter::measure(const std::vector<double>& positions) {
   const std::vector<double>& original = surface_.welded.positions;
   const std::uint32_t count = surface_.vertexCount();
-  turns_ = squares_ = 0;
+  turns_ = 0;
   turnOf_.assign(count, 0.0f);
   squareOf_.assign(count, 0.0f);
   std::vector<float> moved(count);
@@ -72,15 +74,18 @@ void ChangeMeter::measure(const std::vector<double>& positions) {
     const Vec3 d = at(positions, v) - at(original, v);
     moved[v] = static_cast<float>(dot(d, d));
   }
+  std::vector<double> squares(count, 0.0);
+  forEachInParts(count, [&](std::size_t v) {
+    if (!(moved[v] > 0)) return;
+    const auto faces = facesAround_.of(static_cast<std::uint32_t>(v));
+    squares[v] = 0.5 * (squaredToFan(pointAt(original, v), surface_, faces, positions) +
+                        squaredToFan(pointAt(positions, v), surface_, faces, original));
+    squareOf_[v] = static_cast<float>(squares[v]);
+  });
+  squares_ = std::accumulate(squares.begin(), squares.end(), 0.0);
+  release(squares);
   const std::vector<Vec3> after = unitNormals(surface_, positions);
   for (std::uint32_t v = 0; v < count; ++v) {
-    if (moved[v] > 0) {
-      const auto faces = facesAround_.of(v);
-      const double square = 0.5 * (squaredToFan(pointAt(original, v), surface_, faces, positions) +
-                                   squaredToFan(pointAt(positions, v), surface_, faces, original));
-      squareOf_[v] = static_cast<float>(square);
-      squares_ += square;
-    }
     const double turn = length(after[v] - normals_[v]);
     if (!(turn > 0)) continue;
     turns_ += turn;

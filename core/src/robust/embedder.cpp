@@ -7,6 +7,7 @@
 #include "embed_diamonds.h"
 #include "embed_rings.h"
 #include "median.h"
+#include "parallel.h"
 #include "quadmark/random.h"
 #include "quadmark/trig.h"
 #include "sorting.h"
@@ -87,12 +88,14 @@ constexpr double kQuantizationSigma = 1.76e-5;
 // cells that leave half as many slots again as it has bits, before coding.
 std::uint8_t chooseDelta(const std::vector<Diamond>& diamonds, const std::vector<double>& positions,
                          std::size_t bodyBits) {
-  std::vector<float> blur;
+  std::vector<float> blur(diamonds.size(), -1.0f);
   const double sigma = kQuantizationSigma * largestExtent(positions);
-  DiamondShape s;
-  for (const Diamond& q : diamonds)
-    if (diamondShape(positions, q, s) && isUsable(ratiosOf(s)))
-      blur.push_back(static_cast<float>(std::max(s.edgeGain, s.spanGain) * sigma));
+  forEachInParts(diamonds.size(), [&](std::size_t i) {
+    DiamondShape s;
+    if (diamondShape(positions, diamonds[i], s) && isUsable(ratiosOf(s)))
+      blur[i] = static_cast<float>(std::max(s.edgeGain, s.spanGain) * sigma);
+  });
+  blur.erase(std::remove(blur.begin(), blur.end(), -1.0f), blur.end());
   const double median = medianOf(std::move(blur));
   if (bodyBits == 0) return 5 * median <= kDeltas[0].delta ? 0 : 5 * median <= kDeltas[1].delta ? 1 : 2;
   for (const std::uint8_t c : {std::uint8_t{3}, std::uint8_t{4}}) {

@@ -8,6 +8,7 @@
 #include "labels.h"
 
 #include "far_names.h"
+#include "parallel.h"
 #include "quadmark/random.h"
 
 namespace quadmark::robust {
@@ -20,10 +21,14 @@ std::uint64_t combine(std::uint64_t a, std::uint64_t b) {
 // Per vertex, the irregular vertices seen from its ring's rings, with repetition.
 std::vector<std::uint16_t> irregularAround(const Surface& surface) {
   std::vector<std::uint16_t> near(surface.vertexCount(), 0), out(surface.vertexCount(), 0);
-  for (std::uint32_t v = 0; v < surface.vertexCount(); ++v)
-    for (const std::uint32_t n : surface.ring(v)) near[v] += !isRegular(surface, n);
-  for (std::uint32_t v = 0; v < surface.vertexCount(); ++v)
-    for (const std::uint32_t n : surface.ring(v)) out[v] += near[n];
+  const auto ofRings = [&](std::vector<std::uint16_t>& sums, const auto& termOf) {
+    forEachInParts(surface.vertexCount(), [&](std::size_t v) {
+      for (const std::uint32_t n : surface.ring(static_cast<std::uint32_t>(v)))
+        sums[v] = static_cast<std::uint16_t>(sums[v] + termOf(n));
+    });
+  };
+  ofRings(near, [&](std::uint32_t n) { return isRegular(surface, n) ? 0 : 1; });
+  ofRings(out, [&](std::uint32_t n) { return near[n]; });
   return out;
 }
 
@@ -69,21 +74,21 @@ Labels refineLabels(const Surface& surface) {
   const std::vector<std::uint16_t> irregular = irregularAround(surface);
   out.label.assign(count, 0);
   std::vector<std::uint8_t> named(count, 0);  // by the last level
-  std::uint32_t order[kMaxRing];
   for (int level = 1; level <= kLabelDepth; ++level) {
-    for (std::uint32_t v = 0; v < count; ++v) {
-      const auto ring = surface.ring(v);
+    forEachInParts(count, [&](std::size_t v) {
+      const auto ring = surface.ring(static_cast<std::uint32_t>(v));
       next[v] = 0;
       bool complete = !ring.empty();
       for (std::size_t k = 0; complete && k < ring.size() && level > 1; ++k) complete = current[ring[k]] != 0;
-      if (!complete) continue;
+      if (!complete) return;
+      std::uint32_t order[kMaxRing];
       const bool unique = canonicalRing(ring, current, order, next[v]);
       if (level == kLabelDepth) named[v] = unique;
       const bool enough = level == kLabelDepth || (unique && irregular[v] >= kEnoughIrregular[level]);
-      if (out.depth[v] != 0 || !enough) continue;
+      if (out.depth[v] != 0 || !enough) return;
       out.depth[v] = static_cast<std::uint8_t>(level);
       out.label[v] = combine(next[v], static_cast<std::uint64_t>(level));
-    }
+    });
     out.names[level - 1] = std::move(current);
     current = std::move(next);
     next.assign(count, 0);
@@ -94,6 +99,7 @@ Labels refineLabels(const Surface& surface) {
   for (std::uint32_t v = 0; v < count; ++v) {
     const bool local = out.label[v] != 0 && (out.depth[v] < kLabelDepth || named[v] != 0);
     if (local || surface.ring(v).empty()) continue;
+    std::uint32_t order[kMaxRing];
     std::uint64_t hash = 0;
     const bool unique = canonicalRing(surface.ring(v), out.names[kLabelDepth], order, hash);
     out.depth[v] = kLabelDepth + 1;

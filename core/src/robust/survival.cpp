@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "parallel.h"
+
 namespace quadmark::robust {
 namespace {
 
@@ -12,9 +14,9 @@ namespace {
 // what edge-collapse simplifiers (Garland and Heckbert 1997) sort by. 0 where there is no closed fan.
 std::vector<float> collapseCosts(const Surface& surface, const std::vector<double>& positions) {
   std::vector<float> out(surface.vertexCount(), 0.0f);
-  for (std::uint32_t v = 0; v < surface.vertexCount(); ++v) {
-    const auto ring = surface.ring(v);
-    if (ring.empty()) continue;
+  forEachInParts(surface.vertexCount(), [&](std::size_t v) {
+    const auto ring = surface.ring(static_cast<std::uint32_t>(v));
+    if (ring.empty()) return;
     const Vec3 p = at(positions, v);
     Vec3 normal[kMaxRing];
     double area[kMaxRing], total = 0;
@@ -35,7 +37,7 @@ std::vector<float> collapseCosts(const Surface& surface, const std::vector<doubl
       best = std::min(best, sum);
     }
     if (total > 0) out[v] = static_cast<float>(std::sqrt(best / total));
-  }
+  });
   return out;
 }
 
