@@ -50,26 +50,32 @@ inline double squaredBeyond(double beyond, double areaTimesEdge) {
   return beyond < 0 ? beyond * beyond / areaTimesEdge : 0;
 }
 
-/// Degenerate triangles (segments, points) are handled as what they are.
-/// @param enough  a distance that is at least this need not be exact: some number that is not below it comes back.
-inline double squaredToTriangle(const Point& p, const Point& a, const Point& b, const Point& c, double enough = 1e300) {
+/// Where a point lies over a triangle.
+struct OverTriangle {
+  bool inside = false;  ///< the prism over it
+  double squared = 0;   ///< distance: inside the squared one, elsewhere a number that is not above it
+};
+inline OverTriangle overTriangle(const Point& p, const Point& a, const Point& b, const Point& c) {
   const Point ab = b - a, ac = c - a, ap = p - a;
   const Point normal = cross(ab, ac);
   const double area = squared(normal);
-  if (area > 0) {  // inside the prism over the triangle: distance to the plane
-    const double v = dot(cross(ap, ac), normal), w = dot(cross(ab, ap), normal);
-    if (v >= 0 && w >= 0 && v + w <= area) {
-      const double height = dot(ap, normal);
-      return height * height / area;
-    }
-    if (enough < 1e300) {
-      const double height = dot(ap, normal), least = height * height / area;
-      if (least + std::max({squaredBeyond(v, area * squared(ac)), squaredBeyond(w, area * squared(ab)),
-                            squaredBeyond(area - v - w, area * squared(c - b))}) >= enough)
-        return enough;
-    }
-  }
+  if (!(area > 0)) return {};
+  const double v = dot(cross(ap, ac), normal), w = dot(cross(ab, ap), normal);
+  const double height = dot(ap, normal), least = height * height / area;
+  if (v >= 0 && w >= 0 && v + w <= area) return {true, least};
+  return {false, least + std::max({squaredBeyond(v, area * squared(ac)), squaredBeyond(w, area * squared(ab)),
+                                   squaredBeyond(area - v - w, area * squared(c - b))})};
+}
+
+inline double squaredToSides(const Point& p, const Point& a, const Point& b, const Point& c) {
   return std::min({squaredToSegment(p, a, b), squaredToSegment(p, b, c), squaredToSegment(p, c, a)});
+}
+
+/// Degenerate triangles (segments, points) are handled as what they are.
+/// @param enough  a distance that is at least this need not be exact: some number that is not below it comes back.
+inline double squaredToTriangle(const Point& p, const Point& a, const Point& b, const Point& c, double enough = 1e300) {
+  const OverTriangle over = overTriangle(p, a, b, c);
+  return over.inside ? over.squared : over.squared >= enough ? enough : squaredToSides(p, a, b, c);
 }
 
 }  // namespace quadmark::detail

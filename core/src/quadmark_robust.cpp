@@ -125,8 +125,9 @@ Result<EmbedResponse> embedRobustFile(std::span<const std::uint8_t> file, const 
     tests = robust::selfTest(after, marked->bits, *keys);
   }
   if (!tell(request.progress, "report", 0.97)) return cancelled();
-  const double diagonal = boundingDiagonal(mesh);
-  const Distortion measured = distortion(mesh, marked->embedding.positions, marked->embedding.welding, diagonal);
+
+  const RobustEmbedding& e = marked->embedding;
+  const Distortion measured = distortion(mesh, e.positions, e.welding, e.diagonal);
 
   EmbedResponse response;
   auto patched = (*model)->patch(file, resources, marked->embedding.positions);
@@ -137,7 +138,7 @@ Result<EmbedResponse> embedRobustFile(std::span<const std::uint8_t> file, const 
   warnings.insert(warnings.end(), response.file.warnings.begin(), response.file.warnings.end());
   response.reportJson =
       formatReport(RobustEmbedReport{marked->bits, marked->coded, marked->embedding, request.robust.strength, measured,
-                                     marked->embedding.largestSlide / diagonal, shift, marked->unattacked, tests,
+                                     e.largestSlide / e.diagonal, shift, marked->unattacked, tests,
                                      response.file.bytesChanged, warnings});
   tell(request.progress, "report", 1);
   return response;

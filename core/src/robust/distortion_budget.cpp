@@ -2,6 +2,7 @@
 #include "distortion_budget.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "parallel.h"
@@ -26,16 +27,36 @@ std::vector<Vec3> unitNormals(const Surface& surface, const std::vector<double>&
   return normals;
 }
 
-// Squared distance of a point from the faces around a vertex, which are the nearest for displacements this small.
+// Squared distance of a point from the faces around a vertex, which are the nearest for displacements this small. Most
+// often it lies over one of them, and is then known to be farther from the sides of the others.
 double squaredToFan(const Point& p, const Surface& surface, std::span<const std::uint32_t> faces,
                     const std::vector<double>& positions) {
+  struct Outside {
+    double least;
+    std::uint32_t a, b, c;
+  };
+  std::array<Outside, kMaxRing> outside;
+  std::size_t count = 0;
   double best = 1e300;
+  const auto lookAtSides = [&](const Outside& o) {
+    if (o.least < best)
+      best = std::min(best, detail::squaredToSides(p, pointAt(positions, o.a), pointAt(positions, o.b), pointAt(positions, o.c)));
+  };
   for (const std::uint32_t f : faces) {
     const auto face = surface.face(f);
-    for (std::size_t c = 2; c < face.size(); ++c)
-      best = std::min(best, detail::squaredToTriangle(p, pointAt(positions, face[0]), pointAt(positions, face[c - 1]),
-                                                      pointAt(positions, face[c]), best));
+    for (std::size_t c = 2; c < face.size(); ++c) {
+      const detail::OverTriangle over = detail::overTriangle(p, pointAt(positions, face[0]), pointAt(positions, face[c - 1]),
+                                                             pointAt(positions, face[c]));
+      const Outside triangle = {over.squared, face[0], face[c - 1], face[c]};
+      if (over.inside)
+        best = std::min(best, over.squared);
+      else if (count < outside.size())
+        outside[count++] = triangle;
+      else
+        lookAtSides(triangle);
+    }
   }
+  for (std::size_t i = 0; i < count; ++i) lookAtSides(outside[i]);
   return best;
 }
 

@@ -55,6 +55,9 @@ class Writer {
       for (const std::uint32_t f : facesAround_.of(vertex[k])) {
         if (bad) break;
         const auto face = surface_.face(f);
+        // Those at an earlier one of the four have been looked at.
+        const auto isEarlier = [&](std::uint32_t v) { return std::find(vertex.begin(), vertex.begin() + k, v) != vertex.begin() + k; };
+        if (std::any_of(face.begin(), face.end(), isEarlier)) continue;
         const Vec3 before = areaVector(face, surface_.welded.positions), after = areaVector(face, positions_);
         bad = dot(before, after) < limits_.turnCosine * length(before) * length(after);
       }

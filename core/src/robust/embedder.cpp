@@ -267,6 +267,7 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   out.ringBodyPositions = countSet(ringHit[1]);
   out.diamondPositions = countSet(diamondHit[0]);
   out.diamondBodyPositions = countSet(diamondHit[1]);
+  out.diagonal = diagonal;
   out.welding = surface.welded.takeWelding();
   return out;
 }

@@ -43,6 +43,7 @@ struct RobustEmbedding {
   std::uint32_t headPositions = 0;    ///< coded positions of the head that either layer holds
   std::uint32_t ringBodyPositions = 0;
   std::uint32_t diamondBodyPositions = 0;
+  double diagonal = 0;                ///< boundingDiagonal() of the mesh before
   Welding welding;                    ///< of the mesh: marking changes nothing in it
 };
 
