@@ -2,8 +2,9 @@
 // quadmark_speed: how fast and how big embed and extract are natively, from bytes to bytes.
 //
 //   quadmark_speed IN KEY (PNG | ID) REPEATS     prints one JSON object:
-//   { vertices, fileBytes, embed: {medianMs, minMs, peakBytesPerVertex}, extract: {...}, search: {...} }
+//   { vertices, fileBytes, embed: {medianMs, minMs, oneThreadMs, peakBytesPerVertex}, extract: {...}, search: {...} }
 //
+// On all cores; oneThreadMs is the median on one.
 // ID (hexadecimal, for keys of scheme robust) in place of a picture. "search" reads the unmarked model: every hypothesis
 // is tried.
 // Reading files is outside the timer. Peak memory is what a process adds while it does the one call, above what it held
@@ -21,6 +22,7 @@
 
 #include <nlohmann/json.hpp>
 #include "quadmark/quadmark.h"
+#include "quadmark/threads.h"
 #include "read_file.h"
 
 namespace {
@@ -67,17 +69,25 @@ long peakBytes(const Call& call) {
 
 template <class Call>
 nlohmann::ordered_json measure(int repeats, double vertices, const Call& call) {
-  std::vector<double> millis;
   const long peak = peakBytes(call);
   call();  // warm-up
-  for (int i = 0; i < repeats; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    call();
-    millis.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-  }
-  std::sort(millis.begin(), millis.end());
+  const auto times = [&] {
+    std::vector<double> millis;
+    for (int i = 0; i < repeats; ++i) {
+      const auto start = std::chrono::steady_clock::now();
+      call();
+      millis.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    }
+    std::sort(millis.begin(), millis.end());
+    return millis;
+  };
+  const std::vector<double> millis = times();
+  useThreads(1);
+  const std::vector<double> alone = times();
+  useThreads(0);
   return {{"medianMs", millis[millis.size() / 2]},
           {"minMs", millis.front()},
+          {"oneThreadMs", alone[alone.size() / 2]},
           {"peakBytesPerVertex", static_cast<double>(peak) / vertices}};
 }
 

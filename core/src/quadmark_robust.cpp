@@ -127,7 +127,7 @@ Result<EmbedResponse> embedRobustFile(std::span<const std::uint8_t> file, const 
   if (!tell(request.progress, "report", 0.97)) return cancelled();
 
   const RobustEmbedding& e = marked->embedding;
-  const Distortion measured = distortion(mesh, e.positions, e.welding, e.diagonal);
+  const Distortion measured = distortion(mesh, e.positions, marked->welding, e.diagonal);
 
   EmbedResponse response;
   auto patched = (*model)->patch(file, resources, marked->embedding.positions);

@@ -6,6 +6,7 @@
 #include "distortion_budget.h"
 #include "embed_diamonds.h"
 #include "embed_rings.h"
+#include "ground.h"
 #include "median.h"
 #include "parallel.h"
 #include "quadmark/random.h"
@@ -178,8 +179,9 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   preset.diamond.maxMove = (maxError - 2 * preset.concealment) * diagonal;
   if (options.maxSlideRel > 0) preset.ring.maxSlide = preset.diamond.maxSlide = options.maxSlideRel * diagonal;
   if (cancelled("surface", 0)) return aborted;
-  Surface surface = makeSurface(mesh);
-  const Carriers carriers = selectCarriers(surface, Prf(keys.select));
+  const std::shared_ptr<Ground> ground = groundOf(mesh, keys);
+  Surface& surface = ground->surface;
+  const Carriers& carriers = ground->carriers;
   std::vector<double> positions = surface.welded.positions;
   RobustEmbedding out;
 
@@ -268,7 +270,7 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   out.diamondPositions = countSet(diamondHit[0]);
   out.diamondBodyPositions = countSet(diamondHit[1]);
   out.diagonal = diagonal;
-  out.welding = surface.welded.takeWelding();
+  out.ground = ground;
   return out;
 }
 

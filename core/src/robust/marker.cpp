@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "concat.h"
+#include "ground.h"
 #include "quadmark/robust/reader.h"
 
 namespace quadmark::robust {
@@ -59,7 +60,9 @@ Result<MarkedMesh> markMesh(const Mesh& mesh, const Payload& payload, const Sche
     after.positions = std::move(marked.embedding.positions);
     roundToPrecision(after);  // integer grids are coarser than what the layers round to
     if (options.progress && !options.progress("verify", 0.9)) return Error{ErrorCode::aborted, "cancelled by the caller"};
-    marked.unattacked = readBack(after, marked.bits, keys);
+    marked.unattacked = readBack(after, marked.bits, keys, marked.embedding.ground);
+    marked.welding = marked.embedding.ground->surface.welded.takeWelding();
+    marked.embedding.ground.reset();
     marked.embedding.positions = std::move(after.positions);
     if (marked.unattacked.read) break;
   }

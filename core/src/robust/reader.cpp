@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "diamond_votes.h"
+#include "ground.h"
 #include "quadmark/robust/demapper.h"
 #include "ring_votes.h"
 #include "sorting.h"
@@ -95,9 +96,8 @@ struct MeshReader::State {
   const Mesh& mesh;
   RobustKeys keys;
   StreamCode head;
-  Surface surface;
+  std::shared_ptr<Ground> ground;
   double extent = 0;
-  Carriers carriers;
   RingCode ringCode;
   ReaderCoverage coverage;
   bool mirrored = false;  // what follows is of the surface turned over
@@ -106,24 +106,18 @@ struct MeshReader::State {
   std::unique_ptr<DiamondVotes> diamondVotes;
   std::map<std::pair<std::uint8_t, double>, CellScores> scores;  // by delta class and sigma
 
-  State(const Mesh& m, const RobustKeys& k, StreamCode h)
+  State(const Mesh& m, const RobustKeys& k, StreamCode h, std::shared_ptr<Ground> known)
       : mesh(m),
         keys(k),
         head(std::move(h)),
+        ground(known && moveTo(known->surface, m) ? std::move(known) : groundOf(m, k)),
         ringCode(k) {
-    look();
-    extent = largestExtent(surface.welded.positions);
-    coverage.vertices = surface.vertexCount();
-    coverage.carriers = carriers.count();
+    extent = largestExtent(ground->surface.welded.positions);
+    coverage.vertices = ground->surface.vertexCount();
+    coverage.carriers = ground->carriers.count();
     const RingVotes& votes = rings(0);
     coverage.labels = votes.labelCount();
     coverage.ringPositions = votes.positionsHit({Sharing::headOnly, Stream::head, head.bits});
-  }
-
-  void look() {
-    surface = makeSurface(mesh);
-    if (mirrored) turnOver(surface);
-    carriers = selectCarriers(surface, Prf(keys.select));
   }
 
   // One side at a time: the other one is rarely asked for, and would double the memory.
@@ -133,9 +127,8 @@ struct MeshReader::State {
     ringVotes.clear();
     stepsByFit.clear();
     forgetCells();
-    surface = {};
-    carriers = {};
-    look();
+    ground.reset();
+    ground = groundOf(mesh, keys, mirrored);
   }
 
   void forgetCells() {
@@ -147,8 +140,9 @@ struct MeshReader::State {
     const auto found = ringVotes.find(sharpening);
     if (found != ringVotes.end()) return found->second;
     if (sharpening > 0) forgetCells();  // they are not asked for beside these, and are as much memory
-    const std::vector<double> positions = sharpening > 0 ? sharpened(surface, sharpening) : surface.welded.positions;
-    return ringVotes.emplace(sharpening, RingVotes(carriers, ringCode, positions, edgeTensor(surface, positions)))
+    if (sharpening > 0) rememberRings(ground->surface);
+    const std::vector<double> positions = sharpening > 0 ? sharpened(ground->surface, sharpening) : ground->surface.welded.positions;
+    return ringVotes.emplace(sharpening, RingVotes(ground->carriers, ringCode, positions, edgeTensor(ground->surface, positions)))
         .first->second;
   }
 
@@ -168,7 +162,7 @@ struct MeshReader::State {
     if (!diamondVotes) {
       std::vector<double> sigmas;
       for (const double s : kDiamondSigmas) sigmas.push_back(s * extent);
-      diamondVotes = std::make_unique<DiamondVotes>(surface, surface.welded.positions, sigmas);
+      diamondVotes = std::make_unique<DiamondVotes>(ground->surface, ground->surface.welded.positions, sigmas);
       coverage.diamonds = diamondVotes->count();
     }
     const auto [place, isNew] = scores.try_emplace({deltaClass, sigma});
@@ -192,8 +186,8 @@ struct MeshReader::State {
   }
 };
 
-MeshReader::MeshReader(const Mesh& mesh, const RobustKeys& keys, StreamCode head)
-    : state_(std::make_unique<State>(mesh, keys, std::move(head))) {}
+MeshReader::MeshReader(const Mesh& mesh, const RobustKeys& keys, StreamCode head, std::shared_ptr<Ground> ground)
+    : state_(std::make_unique<State>(mesh, keys, std::move(head), std::move(ground))) {}
 MeshReader::~MeshReader() = default;
 MeshReader::MeshReader(MeshReader&&) noexcept = default;
 
@@ -251,19 +245,19 @@ Agreement MeshReader::diamondAgreement(const CodedPayload& expected, const Hypot
 std::vector<float> MeshReader::evidence(const CodedPayload& payload, const Hypothesis& hypothesis) {
   State& s = *state_;
   s.turn(hypothesis.mirrored);
-  std::vector<float> perWelded(s.surface.vertexCount(), 0.0f);
+  std::vector<float> perWelded(s.ground->surface.vertexCount(), 0.0f);
   const double sigma = hypothesis.layers == Layers::diamonds ? kStepSigma : hypothesis.ringSigma;
   const double step = s.ringStep(hypothesis.sharpening, sigma, hypothesis.ringRank);
   const std::vector<float> perCarrier = s.rings(hypothesis.sharpening).agreementPerCarrier(step, payload);
-  for (std::size_t i = 0; i < perCarrier.size(); ++i) perWelded[s.carriers.vertex[i]] = perCarrier[i];
+  for (std::size_t i = 0; i < perCarrier.size(); ++i) perWelded[s.ground->carriers.vertex[i]] = perCarrier[i];
   if (hypothesis.layers != Layers::ring) {
     const Sharing sharing = payload.hasBody() ? Sharing::split : Sharing::headOnly;
     const Constellation constellation(hypothesis.deltaClass, s.keys, sharing, payload.headCode(), payload.bodyCode());
-    addDiamondEvidence(s.surface, constellation, payload, hypothesis.diamondSigma * s.extent, perWelded);
+    addDiamondEvidence(s.ground->surface, constellation, payload, hypothesis.diamondSigma * s.extent, perWelded);
   }
   std::vector<float> out(s.mesh.vertexCount(), 0.0f);
   for (std::size_t v = 0; v < out.size(); ++v)
-    if (s.surface.welded.weldedOf[v] != kNoVertex) out[v] = perWelded[s.surface.welded.weldedOf[v]];
+    if (s.ground->surface.welded.weldedOf[v] != kNoVertex) out[v] = perWelded[s.ground->surface.welded.weldedOf[v]];
   return out;
 }
 

@@ -134,8 +134,8 @@ Mesh halved(const Mesh& mesh) {
 
 }  // namespace
 
-SelfTest readBack(const Mesh& mesh, const PayloadBits& payload, const SchemeKeys& keys) {
-  MeshReader reader(mesh, keys.geometry, headCode());
+SelfTest readBack(const Mesh& mesh, const PayloadBits& payload, const SchemeKeys& keys, std::shared_ptr<Ground> ground) {
+  MeshReader reader(mesh, keys.geometry, headCode(), std::move(ground));
   MeshSource source(reader);
   const auto reading = readMark(source, {keys});
   SelfTest out;

@@ -90,6 +90,10 @@ Surface makeSurface(const Mesh& mesh) {
   return out;
 }
 
+void rememberRings(Surface& surface) {
+  if (surface.ringOffsets.empty()) collectRings(surface);
+}
+
 void forgetRings(Surface& surface) {
   for (auto* list : {&surface.rings, &surface.ringOffsets, &surface.cornerCounts}) release(*list);
 }

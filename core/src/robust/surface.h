@@ -38,8 +38,9 @@ struct Surface {
 /// @param mesh  must validate(). Cost: linear.
 [[nodiscard]] Surface makeSurface(const Mesh& mesh);
 
-/// Frees rings and corner counts; ring() may not be called any more.
+/// Frees rings and corner counts; ring() may not be called until they are remembered.
 void forgetRings(Surface& surface);
+void rememberRings(Surface& surface);
 
 /// Reverses the winding of all faces and rings: as the mesh would be after mirroring and mending its winding.
 void turnOver(Surface& surface);

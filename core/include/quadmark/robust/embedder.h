@@ -3,15 +3,17 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string_view>
 #include <vector>
 
-#include "quadmark/adjacency.h"
 #include "quadmark/mesh.h"
 #include "quadmark/result.h"
 #include "quadmark/robust/coded.h"
 
 namespace quadmark::robust {
+
+struct Ground;
 
 enum class Strength : std::uint8_t { invisible, standard, strong };
 
@@ -44,7 +46,7 @@ struct RobustEmbedding {
   std::uint32_t ringBodyPositions = 0;
   std::uint32_t diamondBodyPositions = 0;
   double diagonal = 0;                ///< boundingDiagonal() of the mesh before
-  Welding welding;                    ///< of the mesh: marking changes nothing in it
+  std::shared_ptr<Ground> ground;     ///< for reading it back at once
 };
 
 /// Writes both layers.

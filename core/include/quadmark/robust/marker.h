@@ -2,6 +2,7 @@
 // Marking a mesh so that the payload certainly reads back: the form of its body, both layers, the file's grid, a reading.
 #pragma once
 
+#include "quadmark/adjacency.h"
 #include "quadmark/robust/embedder.h"
 #include "quadmark/robust/frame.h"
 #include "quadmark/robust/self_test.h"
@@ -11,7 +12,8 @@ namespace quadmark::robust {
 struct MarkedMesh {
   PayloadBits bits;
   CodedPayload coded;
-  RobustEmbedding embedding;  ///< its positions are those of the mesh's grid
+  RobustEmbedding embedding;  ///< its positions are those of the mesh's grid; without ground
+  Welding welding;            ///< of the mesh
   SelfTest unattacked;        ///< what reading them gives
 };
 

@@ -2,6 +2,7 @@
 // What a mark withstands, found by damaging the marked mesh and reading it again.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 
 namespace quadmark::robust {
 
+struct Ground;
+
 struct SelfTest {
   std::string name;          ///< "quantize14", "quantize11", "noise3e-4", "collapse10", "collapse10quantize14", "crop50"
   bool read = false;         ///< the payload came back, images exactly
@@ -17,7 +20,9 @@ struct SelfTest {
 };
 
 /// Whether `payload` is read from a mesh, whole and certain.
-[[nodiscard]] SelfTest readBack(const Mesh& mesh, const PayloadBits& payload, const SchemeKeys& keys);
+/// @param ground  as for MeshReader.
+[[nodiscard]] SelfTest readBack(const Mesh& mesh, const PayloadBits& payload, const SchemeKeys& keys,
+                                std::shared_ptr<Ground> ground = nullptr);
 
 /// Rounds to a grid of 14 and of 11 bits over the largest extent; moves vertices by Gaussian noise of 3e-4 of the
 /// diagonal; collapses the shortest edges until a tenth of the vertices is gone, alone and with 14 bits; cuts the mesh
