@@ -28,14 +28,13 @@ using detail::TriangleTree;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Squared distance from p to one face, fanned from its first corner.
-double squaredToFace(const Point& p, const Mesh& mesh, const std::vector<double>& positions, std::size_t face) {
+/// Squared distance from p to one face, fanned from its first corner, or `best` where that is less.
+double squaredToFace(const Point& p, const Mesh& mesh, const std::vector<double>& positions, std::size_t face, double best) {
   const std::size_t begin = mesh.faceBegin(face), end = mesh.faceEnd(face);
   const Point a = pointAt(positions, mesh.faceVertices[begin]);
-  double best = kInfinity;
   for (std::size_t c = begin + 2; c < end; ++c)
     best = std::min(best, squaredToTriangle(p, a, pointAt(positions, mesh.faceVertices[c - 1]),
-                                            pointAt(positions, mesh.faceVertices[c])));
+                                            pointAt(positions, mesh.faceVertices[c]), best));
   return best;
 }
 
@@ -96,11 +95,11 @@ class LocalDistance {
   /// From p, at most `best` away, to the faces at the vertices `around` of the surface with these positions.
   void distance(const Point& p, double best, const std::vector<double>& to, std::span<const std::uint32_t> around,
                 std::size_t own) {
-    if (own != kNoVertex) best = std::min(best, squaredToFace(p, mesh_, to, own));
+    if (own != kNoVertex) best = squaredToFace(p, mesh_, to, own, best);
     if (best <= worst_) return;
     for (std::uint32_t vertex : around)
       for (std::uint32_t face : rings_.facesOf(vertex)) {
-        best = std::min(best, squaredToFace(p, mesh_, to, face));
+        best = squaredToFace(p, mesh_, to, face, best);
         if (best <= worst_) return;
       }
     worst_ = best;

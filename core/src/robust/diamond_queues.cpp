@@ -47,9 +47,9 @@ void DiamondQueues::Queue::prune(std::uint32_t wanted) {
               pairs.end());
 }
 
-// Half as many more as are kept: few prunings for little memory.
+// Twice as many as are kept: few prunings for little memory.
 void DiamondQueues::Queue::reserve(std::size_t kept) {
-  pruneAt = kept + kept / 2 + 1;
+  pruneAt = 2 * kept + 1;
   pairs.reserve(pruneAt);
 }
 

@@ -10,9 +10,8 @@
 
 namespace quadmark::robust {
 
-/// A diamond that may become a cell.
+/// What it would cost to make a cell of a diamond.
 struct Candidate {
-  std::uint32_t diamond;
   float edgeRatio, spanRatio;    ///< Ratios
   float edgeLength, spanLength;  ///< file units
   float gap;                     ///< file units

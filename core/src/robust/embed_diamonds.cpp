@@ -56,8 +56,10 @@ class Writer {
         if (bad) break;
         const auto face = surface_.face(f);
         // Those at an earlier one of the four have been looked at.
-        const auto isEarlier = [&](std::uint32_t v) { return std::find(vertex.begin(), vertex.begin() + k, v) != vertex.begin() + k; };
-        if (std::any_of(face.begin(), face.end(), isEarlier)) continue;
+        bool seen = false;
+        for (const std::uint32_t v : face)
+          for (int j = 0; j < k; ++j) seen |= v == vertex[j];
+        if (seen) continue;
         const Vec3 before = areaVector(face, surface_.welded.positions), after = areaVector(face, positions_);
         bad = dot(before, after) < limits_.turnCosine * length(before) * length(after);
       }
@@ -91,10 +93,9 @@ DiamondCandidates findCandidates(const Surface& surface, std::vector<Diamond> di
     if (!diamondShape(positions, q, s) || s.gapLength > limits.mostGap * std::min(s.edgeLength, s.spanLength)) continue;
     const auto [edge, span] = ratiosOf(s);
     if (!fineCell(edge, span, shape).isIn(shape)) continue;
-    const auto number = static_cast<std::uint32_t>(items.size());
-    items.push_back({number, static_cast<float>(edge), static_cast<float>(span), static_cast<float>(s.edgeLength),
+    diamonds[items.size()] = q;
+    items.push_back({static_cast<float>(edge), static_cast<float>(span), static_cast<float>(s.edgeLength),
                      static_cast<float>(s.spanLength), static_cast<float>(s.gapLength), survival.reluctance(q)});
-    diamonds[number] = q;
   }
   diamonds.resize(items.size());
   diamonds.shrink_to_fit();
@@ -135,8 +136,8 @@ DiamondEmbedding embedDiamonds(const Surface& surface, const FacesAround& facesA
       for (std::size_t g = 0; g < goodCells.size(); ++g)
         while (next[g] < queues.size(g)) {
           if (next[g] >= queues.nearCount(g) && copies[g] >= farShare) break;
-          const Candidate& c = items[queues.candidate(g, next[g]++)];
-          const Diamond& q = diamonds[c.diamond];
+          const std::uint32_t candidate = queues.candidate(g, next[g]++);
+          const Diamond& q = diamonds[candidate];
           DiamondShape s;
           if (!isFree(q, occupied) || !diamondShape(positions, q, s)) continue;
           const FineCell cell = FineCell::ofNumber(goodCells[g], shape);
@@ -146,17 +147,21 @@ DiamondEmbedding embedDiamonds(const Surface& surface, const FacesAround& facesA
             ++out.vetoed;
             continue;
           }
-          out.cells.push_back({q, constellation.meaning(goodCells[g]), c.gap});
+          out.cells.push_back({q, constellation.meaning(goodCells[g]), items[candidate].gap});
           ++copies[g];
           any = true;
           break;
         }
     }
     if (out.cells.size() - before <= out.cells.size() / 50) break;
-    const std::vector<Diamond>& all = diamonds;
-    items.erase(std::remove_if(items.begin(), items.end(),
-                               [&](const Candidate& c) { return !isFree(all[c.diamond], occupied); }),
-                items.end());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (!isFree(diamonds[i], occupied)) continue;
+      diamonds[kept] = diamonds[i];
+      items[kept++] = items[i];
+    }
+    diamonds.resize(kept);
+    items.resize(kept);
   }
   return out;
 }

@@ -36,7 +36,7 @@ struct DiamondEmbedding {
 /// The diamonds that may become cells, and what each would cost.
 struct DiamondCandidates {
   std::vector<Diamond> diamonds;
-  std::vector<Candidate> items;
+  std::vector<Candidate> items;  ///< one per diamond
 };
 
 /// Those within the limits, off occupied vertices and sharp edges. Takes the list of all diamonds, which is much memory,
