@@ -25,7 +25,8 @@ class Threads : public testing::Test {
 
 TEST_F(Threads, DoEachItemOnce) {
   for (const unsigned threads : {1u, 2u, 3u, 7u, 0u})
-    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, kLeastPart, 2 * kLeastPart - 1, 10 * kLeastPart + 3}) {
+    for (const std::size_t count :
+         {std::size_t{0}, std::size_t{1}, kLeastPart, 2 * kLeastPart - 1, 10 * kLeastPart + 3}) {
       useThreads(threads);
       std::vector<int> done(count, 0);
       forEachInParts(count, [&](std::size_t i) { ++done[i]; });
@@ -47,7 +48,8 @@ TEST_F(Threads, FindTheLargestWhereverItIs) {
   const std::size_t count = 5 * kLeastPart + 17;
   for (const std::size_t place : {std::size_t{0}, kLeastPart, 3 * kLeastPart + 1, count - 1}) {
     useThreads(5);
-    EXPECT_EQ(largestInParts(count, [&](std::size_t begin, std::size_t end) { return begin <= place && place < end ? 7.0 : 1.0; }), 7);
+    const auto look = [&](std::size_t begin, std::size_t end) { return begin <= place && place < end ? 7.0 : 1.0; };
+    EXPECT_EQ(largestInParts(count, look), 7);
   }
   EXPECT_EQ(largestInParts(0, [](std::size_t, std::size_t) { return 0.0; }), 0);
 }

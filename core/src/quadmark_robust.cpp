@@ -125,12 +125,11 @@ Result<EmbedResponse> embedRobustFile(std::span<const std::uint8_t> file, const 
     tests = robust::selfTest(after, marked->bits, *keys);
   }
   if (!tell(request.progress, "report", 0.97)) return cancelled();
-
   const RobustEmbedding& e = marked->embedding;
   const Distortion measured = distortion(mesh, e.positions, marked->welding, e.diagonal);
 
   EmbedResponse response;
-  auto patched = (*model)->patch(file, resources, marked->embedding.positions);
+  auto patched = (*model)->patch(file, resources, e.positions);
   if (!patched) return patched.error();
   response.file = std::move(*patched);
   const std::optional<TextureShift> shift = shiftOf(response.file, resources, mesh.positions);

@@ -39,8 +39,8 @@ double squaredToFan(const Point& p, const Surface& surface, std::span<const std:
   std::size_t count = 0;
   double best = 1e300;
   const auto lookAtSides = [&](const Outside& o) {
-    if (o.least < best)
-      best = std::min(best, detail::squaredToSides(p, pointAt(positions, o.a), pointAt(positions, o.b), pointAt(positions, o.c)));
+    if (o.least >= best) return;
+    best = std::min(best, detail::squaredToSides(p, pointAt(positions, o.a), pointAt(positions, o.b), pointAt(positions, o.c)));
   };
   for (const std::uint32_t f : faces) {
     const auto face = surface.face(f);

@@ -139,10 +139,14 @@ struct MeshReader::State {
   const RingVotes& rings(double sharpening) {
     const auto found = ringVotes.find(sharpening);
     if (found != ringVotes.end()) return found->second;
-    if (sharpening > 0) forgetCells();  // they are not asked for beside these, and are as much memory
-    if (sharpening > 0) rememberRings(ground->surface);
-    const std::vector<double> positions = sharpening > 0 ? sharpened(ground->surface, sharpening) : ground->surface.welded.positions;
-    return ringVotes.emplace(sharpening, RingVotes(ground->carriers, ringCode, positions, edgeTensor(ground->surface, positions)))
+    Surface& surface = ground->surface;
+    if (sharpening > 0) {
+      forgetCells();  // they are not asked for beside these, and are as much memory
+      rememberRings(surface);
+    }
+    const std::vector<double> positions = sharpening > 0 ? sharpened(surface, sharpening) : surface.welded.positions;
+    return ringVotes
+        .emplace(sharpening, RingVotes(ground->carriers, ringCode, positions, edgeTensor(surface, positions)))
         .first->second;
   }
 
@@ -160,6 +164,7 @@ struct MeshReader::State {
 
   const CellScores& cells(std::uint8_t deltaClass, double sigma) {
     if (!diamondVotes) {
+      forgetRings(ground->surface);  // as little beside those
       std::vector<double> sigmas;
       for (const double s : kDiamondSigmas) sigmas.push_back(s * extent);
       diamondVotes = std::make_unique<DiamondVotes>(ground->surface, ground->surface.welded.positions, sigmas);

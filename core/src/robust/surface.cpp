@@ -54,28 +54,38 @@ bool walkRing(std::span<const Spoke> spokes, std::vector<std::uint32_t>& ring) {
   return false;
 }
 
-void collectRings(Surface& out) {
+// In as many rounds, each over all faces for its share of the vertices: so much less memory for spokes, which are half of
+// what a surface is.
+void collectRings(Surface& out, std::uint32_t rounds) {
   const std::uint32_t count = out.vertexCount();
   out.cornerCounts.assign(count, 0);
   std::vector<std::uint32_t> offsets(count + 1, 0);
   for (const std::uint32_t v : out.corners) ++offsets[v + 1];
   for (std::uint32_t v = 0; v < count; ++v) offsets[v + 1] += offsets[v];
-  std::vector<Spoke> spokes(out.corners.size());
+  std::vector<Spoke> spokes;
   std::vector<std::uint32_t> cursor(offsets.begin(), offsets.end() - 1);
-  for (std::uint32_t f = 0; f < out.faceCount(); ++f) {
-    const auto face = out.face(f);
-    const std::size_t sides = face.size();
-    for (std::size_t k = 0; k < sides; ++k) {
-      spokes[cursor[face[k]]++] = {face[(k + 1) % sides], face[(k + sides - 1) % sides]};
-      out.cornerCounts[face[k]] += static_cast<std::uint32_t>(1 + 32 * (sides - 3));
-    }
-  }
   out.ringOffsets.reserve(count + 1);
   out.rings.reserve(out.corners.size());
-  for (std::uint32_t v = 0; v < count; ++v) {
-    out.ringOffsets.push_back(static_cast<std::uint32_t>(out.rings.size()));
-    const std::uint32_t degree = offsets[v + 1] - offsets[v];
-    if (degree >= kMinRing && degree <= kMaxRing) walkRing({spokes.data() + offsets[v], degree}, out.rings);
+  for (std::uint32_t round = 0; round < rounds; ++round) {
+    const auto begin = static_cast<std::uint32_t>(std::uint64_t{count} * round / rounds);
+    const auto end = static_cast<std::uint32_t>(std::uint64_t{count} * (round + 1) / rounds);
+    spokes.resize(offsets[end] - offsets[begin]);
+    for (std::uint32_t f = 0; f < out.faceCount(); ++f) {
+      const auto face = out.face(f);
+      const std::size_t sides = face.size();
+      for (std::size_t k = 0; k < sides; ++k) {
+        const std::uint32_t v = face[k];
+        if (v < begin || v >= end) continue;
+        spokes[cursor[v]++ - offsets[begin]] = {face[(k + 1) % sides], face[(k + sides - 1) % sides]};
+        out.cornerCounts[v] += static_cast<std::uint32_t>(1 + 32 * (sides - 3));
+      }
+    }
+    for (std::uint32_t v = begin; v < end; ++v) {
+      out.ringOffsets.push_back(static_cast<std::uint32_t>(out.rings.size()));
+      const std::uint32_t degree = offsets[v + 1] - offsets[v];
+      if (degree >= kMinRing && degree <= kMaxRing)
+        walkRing({spokes.data() + (offsets[v] - offsets[begin]), degree}, out.rings);
+    }
   }
   out.ringOffsets.push_back(static_cast<std::uint32_t>(out.rings.size()));
 }
@@ -86,12 +96,12 @@ Surface makeSurface(const Mesh& mesh) {
   Surface out;
   out.welded = weldVertices(mesh);
   collectFaces(mesh, out);
-  collectRings(out);
+  collectRings(out, 1);
   return out;
 }
 
 void rememberRings(Surface& surface) {
-  if (surface.ringOffsets.empty()) collectRings(surface);
+  if (surface.ringOffsets.empty()) collectRings(surface, 4);
 }
 
 void forgetRings(Surface& surface) {
