@@ -56,16 +56,24 @@ Preset presetOf(Strength strength) {
 }
 
 // What the whole mark may do at `standard`: vertex normals turn by half a degree; surfaces lie .006 % of the diagonal
-// apart, or one part in as many as there are vertices where that is more: as the distance of a mesh from the smooth
-// surface that it approximates falls.
-constexpr double kMeanTurn = 0.0087, kSurfaceRms = 5.9e-5, kSurfaceRmsCoarse = 0.98;
+// apart, on coarse meshes more, as these are farther from the smooth surface that they approximate: .01 % where there are
+// about 10 000 vertices, and one part in as many as there are below.
+constexpr double kMeanTurn = 0.0087, kSurfaceRms = 5.9e-5, kSurfaceRmsCoarse = 9.8e-5;
+constexpr double kCoarse = 10000, kCoarseEnd = 12500;  // vertices
+
+double surfaceRmsFor(double vertices) {
+  if (vertices <= kCoarse) return kSurfaceRmsCoarse * kCoarse / vertices;
+  const double fall = std::min(1.0, kCoarseEnd / vertices);
+  return std::max(kSurfaceRms, kSurfaceRmsCoarse * fall * fall);
+}
+
 // Shares do not add up exactly: aim a little lower, and look again.
 constexpr double kBudgetShare = 0.98;
 constexpr int kBudgetRounds = 6;
 
 DistortionLimits limitsOf(const Preset& preset, const Surface& surface, double diagonal) {
-  const double coarse = kSurfaceRmsCoarse / std::max(1u, surface.vertexCount());
-  return {preset.budget * kMeanTurn, preset.budget * std::max(kSurfaceRms, coarse) * diagonal};
+  const double rms = surfaceRmsFor(std::max(1u, surface.vertexCount()));
+  return {preset.budget * kMeanTurn, preset.budget * rms * diagonal};
 }
 
 // Exactly flat quadrilaterals are a beacon that needs no key. Cells get a gap of the size that 14-bit quantization gives
