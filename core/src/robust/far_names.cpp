@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::size_t kNearest = 3;
 
-// The vertices along the sides of the faces around each one, most of them twice.
+// The vertices along the sides of the faces around each one, most of them twice. (By FacesAround, a polygon of a million
+// sides would be gone through at each of its corners.)
 class Neighbours {
  public:
   explicit Neighbours(const Surface& surface) : offsets_(surface.vertexCount() + 1, 0), lists_(2 * surface.corners.size()) {

@@ -37,7 +37,7 @@ class MeshReader {
   /// @param mesh  must validate(); positions in any affine frame. Kept by reference.
   /// @param head  the head's code, fixed by the format.
   /// @param ground  of what was embedded a moment ago: RobustEmbedding::ground, for the same mesh at its new positions, which
-  ///                it receives. Spares a third of the time.
+  ///                it receives. Spares more than half of the time.
   MeshReader(const Mesh& mesh, const RobustKeys& keys, StreamCode head, std::shared_ptr<Ground> ground = nullptr);
   ~MeshReader();
   MeshReader(MeshReader&&) noexcept;
