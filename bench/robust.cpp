@@ -2,7 +2,7 @@
 // quadmark_robust: the harness behind docs/robust.md. Marks models, damages them, reads the marks back.
 //
 //   quadmark_robust [--keys FIRST-LAST] [--strength invisible|standard|strong] [--payload id|image]
-//                   [--rows attacks|none] [--results FILE] MODEL...
+//                   [--rows attacks|none|NAME,NAME...] [--results FILE] MODEL...
 //
 // MODEL is as in models.h. Prints, and appends to FILE, two kinds of lines; those that FILE has already are
 // neither computed nor written again:
@@ -12,9 +12,11 @@
 // rate); lost; wrong (another payload with certainty); refused (too little capacity: nothing was written); failed (the
 // reader, not the mark). LAYERS: A rings, B diamonds, + their sum, s after sharpening. scripts/robust.sh runs it on
 // everything, bench/robust_table.mjs makes the tables. Programs of web builds are bench/evaluate's.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -37,7 +39,19 @@ struct Settings {
   int firstKey = 1, lastKey = 3;
   Strength strength = Strength::standard;
   bool image = false, attacks = true;
+  std::vector<std::string> rows;  // empty: all
+
+  [[nodiscard]] bool wants(const std::string& row) const {
+    return rows.empty() || std::find(rows.begin(), rows.end(), row) != rows.end();
+  }
 };
+
+std::vector<std::string> splitAtCommas(const std::string& list) {
+  std::vector<std::string> out;
+  std::istringstream stream(list);
+  for (std::string item; std::getline(stream, item, ',');) out.push_back(item);
+  return out;
+}
 
 SchemeKeys keysOf(int number) {
   std::vector<std::uint8_t> secret(32);
@@ -108,7 +122,7 @@ void runKey(const bench::NamedModel& model, int key, const Settings& settings, b
   std::vector<bench::NamedAttack> attacks;
   if (settings.attacks)
     for (const bench::NamedAttack& attack : bench::robustAttacks())
-      if ((!settings.image || bench::isForImages(attack.name)) && !results.has(keyOf("read", attack.name)))
+      if (settings.wants(attack.name) && (!settings.image || bench::isForImages(attack.name)) && !results.has(keyOf("read", attack.name)))
         attacks.push_back(attack);
   if (attacks.empty() && results.has(keyOf("mark", ""))) return;
 
@@ -156,7 +170,8 @@ int main(int argc, char** argv) {
     } else if (argument == "--payload") {
       settings.image = value == "image";
     } else if (argument == "--rows") {
-      settings.attacks = value == "attacks";
+      settings.attacks = value != "none";
+      if (settings.attacks && value != "attacks") settings.rows = splitAtCommas(value);
     } else if (argument == "--results") {
       path = value;
     } else {
