@@ -49,9 +49,20 @@ struct Curve {
   const char* name;
   int count = 0;
   std::array<int, std::size(kClaims)> atMost{};
+  std::array<double, std::size(kClaims)> exact{};  // of counted votes: how many trials should be
   void add(double p) {
     ++count;
     for (std::size_t i = 0; i < std::size(kClaims); ++i) atMost[i] += p <= kClaims[i] ? 1 : 0;
+  }
+  // Tails come in steps: of so many votes, the largest that is at most a claim is what happens.
+  void add(const Agreement& votes) {
+    add(exactExp(logChance(votes)));
+    for (std::size_t i = 0; i < std::size(kClaims); ++i) {
+      std::uint32_t agreeing = votes.votes / 2;
+      double p = 1;
+      while (agreeing <= votes.votes && (p = exactExp(logChance(Agreement{votes.votes, agreeing}))) > kClaims[i]) ++agreeing;
+      exact[i] += agreeing <= votes.votes ? p : 0;
+    }
   }
 };
 
@@ -85,8 +96,8 @@ int main(int argc, char** argv) {
     for (const Mesh& mesh : innocents) {
       MeshReader reader(mesh, keys.geometry, headCode());
       const Agreement labels = reader.ringAgreement(expected), bits = reader.diamondAgreement(expected, diamondView);
-      if (labels.votes >= kLeastVotes) ring.add(exactExp(logChance(labels)));
-      if (bits.votes >= kLeastVotes) diamonds.add(exactExp(logChance(bits)));
+      if (labels.votes >= kLeastVotes) ring.add(labels);
+      if (bits.votes >= kLeastVotes) diamonds.add(bits);
       ringBound.add(exactExp(logChance(Demapper(reader.headBits(ringView)).ratios(), expected.head)));
       diamondBound.add(exactExp(logChance(Demapper(reader.headBits(diamondView)).ratios(), expected.head)));
     }
@@ -101,6 +112,10 @@ int main(int argc, char** argv) {
     std::printf("| %s |", curve->name);
     for (const int n : curve->atMost) std::printf(" %.4f |", static_cast<double>(n) / std::max(1, curve->count));
     std::printf(" %d |\n", curve->count);
+    if (curve->exact[0] == 0) continue;
+    std::printf("| exact tails of as many votes |");
+    for (const double n : curve->exact) std::printf(" %.4f |", n / std::max(1, curve->count));
+    std::printf(" |\n");
   }
   return 0;
 }
