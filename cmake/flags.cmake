@@ -16,7 +16,7 @@ if(QUADMARK_BUILD_FUZZERS)
   target_compile_options(quadmark_flags INTERFACE -fsanitize=fuzzer-no-link,float-cast-overflow)
 endif()
 if(EMSCRIPTEN)
-  target_compile_options(quadmark_flags INTERFACE -msimd128)
+  target_compile_options(quadmark_flags INTERFACE -msimd128 -mnontrapping-fptoint -msign-ext)
 endif()
 
 # Rebuilding is most of the waiting time; ccache does not know em++, hence natively only.
