@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "quadmark/lab/attacks.h"
@@ -11,6 +12,7 @@
 #include "quadmark/random.h"
 #include "robust/carriers.h"
 #include "robust/constellation.h"
+#include "robust/creases.h"
 #include "robust/diamonds.h"
 #include "robust/distortion_budget.h"
 #include "robust/far_names.h"
@@ -241,11 +243,67 @@ TEST(RobustLattice, WritesTheNearestPointAndReadsItBack) {
   for (int i = 0; i < 1000; ++i) {
     const double x = random.uniform(-1, 1), offset = random.uniform();
     const bool bit = (random.next() & 1) != 0;
-    const double y = nearestLatticePoint(x, 0.5, offset, bit);
+    const double y = nearestLatticePoint(x, 0.5, offset, phaseOf(bit ? 1 : 0, 1));
     EXPECT_LE(std::fabs(y - x), 0.25 + 1e-12);
     EXPECT_NEAR(latticeVote(y, 0.5, offset), bit ? -1 : 1, 1e-9);
     EXPECT_NEAR(latticeVote(y + 0.0625, 0.5, offset), bit ? -0.5 : 0.5, 1e-9);
   }
+}
+
+TEST(RobustLattice, NeighbouringPointsOfSeveralBitsDifferInOne) {
+  Random random(4);
+  for (std::uint32_t bits = 2; bits <= kMostRingBits; ++bits) {
+    std::set<std::uint32_t> values;
+    const std::uint32_t points = 1u << bits;
+    for (std::uint32_t k = 0; k < points; ++k) {
+      const std::uint32_t value = valueOfPoint(k, bits), changed = value ^ valueOfPoint((k + 1) % points, bits);
+      values.insert(value);
+      EXPECT_EQ(changed & (changed - 1), 0u) << "Gray: one bit";
+      const double x = random.uniform(-1, 1), offset = random.uniform();
+      const double y = nearestLatticePoint(x, 0.7, offset, phaseOf(value, bits));
+      EXPECT_LE(std::fabs(y - x), 0.35 + 1e-12);
+      for (std::uint32_t t = 0; t < bits; ++t) EXPECT_EQ(bitVote(y, 0.7, offset, t) < 0, (value >> t & 1) != 0);
+    }
+    EXPECT_EQ(values.size(), points);
+    EXPECT_LT(*values.rbegin(), points);
+  }
+}
+
+TEST(RobustCarriers, HoldMoreBitsWhereNamesAreFewAndRepeat) {
+  const Prf select(keysOf(1).select);
+  for (const auto& [mesh, most] : {std::pair{lab::icosphere(5), 5}, {lab::quadSphere(5), 3}, {lab::quadSphere(6), 1},
+                                   {lab::icosphere(6), 2}, {lab::sculpture(3000), 1}}) {
+    const Carriers carriers = selectCarriers(makeSurface(mesh), select);
+    std::map<std::uint64_t, std::pair<int, int>> names;  // copies, bits
+    for (std::uint32_t i = 0; i < carriers.count(); ++i) {
+      auto& [copies, bits] = names[carriers.label[i]];
+      if (copies++ == 0) bits = carriers.bits[i];
+      EXPECT_EQ(bits, carriers.bits[i]) << "carriers of one name hold as many";
+    }
+    int largest = 0;
+    for (const auto& [label, name] : names) {
+      largest = std::max(largest, name.second);
+      EXPECT_TRUE(name.second == 1 || name.first >= 16);
+    }
+    EXPECT_EQ(largest, most) << mesh.vertexCount();
+  }
+}
+
+TEST(RobustCreases, StandOutFromTheirSurface) {
+  // A roof folded by a right angle, a flat pair, and a pair with a triangle that is a line.
+  const std::vector<double> positions = {0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 2, 0, 0};
+  const std::vector<Diamond> diamonds = {{0, 1, 3, 2}, {0, 1, 4, 2}, {5, 1, 0, 2}};
+  const std::vector<float> bends = edgeBends(diamonds, positions);
+  EXPECT_NEAR(bends[0], std::sqrt(2.0), 1e-6);
+  EXPECT_NEAR(bends[1], 0, 1e-6);
+  EXPECT_EQ(bends[2], 0);
+  const std::vector<std::uint8_t> creased = creaseVertices(6, diamonds, bends, 0.5);
+  EXPECT_EQ(creased, (std::vector<std::uint8_t>{0, 1, 1, 0, 0, 0})) << "the ends of the fold";
+
+  EXPECT_EQ(creaseBend(0.1, 0.4, 5), 0.4) << "a smooth surface";
+  EXPECT_DOUBLE_EQ(creaseBend(kRoughBend + 0.02, 0.4, 5), 0.5) << "a rough one";
+  EXPECT_EQ(creaseBend(0.9, 0.4, 5), 1) << "60 degrees at most";
+  EXPECT_EQ(creaseBend(0.9, 1.2, 5), 1.2) << "unless more is allowed anyway";
 }
 
 TEST(RobustDiamonds, MeasureWhereDiagonalsMeet) {

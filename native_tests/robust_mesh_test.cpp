@@ -44,11 +44,12 @@ double errorRate(const std::vector<float>& ratios, const std::vector<std::uint8_
 }
 
 // The least error rate of the head over all hypotheses of some layers.
-double bestErrorRate(const Mesh& mesh, const CodedPayload& payload, Layers layers, const RobustKeys& keys = keysOf(1)) {
+double bestErrorRate(const Mesh& mesh, const CodedPayload& payload, Layers layers, const RobustKeys& keys = keysOf(1),
+                     double sharpening = 0) {
   MeshReader reader(mesh, keys, payload.headCode());
   double best = 1;
   for (const Hypothesis& h : MeshReader::hypotheses({.trySplit = payload.hasBody()}))
-    if (h.layers == layers && h.sharpening == 0 && !h.mirrored &&
+    if (h.layers == layers && h.sharpening == sharpening && !h.mirrored &&
         h.sharing == (payload.hasBody() ? Sharing::split : Sharing::headOnly))
       best = std::min(best, errorRate(Demapper(reader.headBits(h)).ratios(), payload.head));
   return best;
@@ -71,6 +72,24 @@ TEST(RobustMesh, RingsSurviveNoiseQuantizationAndAffineMaps) {
   EXPECT_LT(bestErrorRate(lab::noise(copy, 3e-4, 1), payload, Layers::ring), 0.1);
   EXPECT_LT(bestErrorRate(lab::quantize(copy, 11, lab::Grid::common), payload, Layers::ring), 0.1);
   EXPECT_LT(bestErrorRate(lab::affine(lab::reorder(copy, 3), *lab::paperAffine("CB")), payload, Layers::ring), 0.1);
+}
+
+// Icosphere and quad sphere repeat each name 60 and 24 times, so names are few: too few for one bit per coordinate.
+TEST(RobustMesh, RingsOfSymmetricSurfacesSurviveNoiseAndSmoothing) {
+  const CodedPayload payload = payloadOf(12);
+  for (const Mesh& mesh : {lab::icosphere(5), lab::quadSphere(5)}) {
+    const Mesh copy = marked(mesh, payload);
+    EXPECT_LT(bestErrorRate(lab::noise(copy, 1e-3, 1), payload, Layers::ring), 0.28);
+    EXPECT_LT(bestErrorRate(lab::quantize(copy, 10, lab::Grid::common), payload, Layers::ring), 0.28);
+    EXPECT_LT(bestErrorRate(lab::smoothLaplacian(copy, 0.03, 10), payload, Layers::ring, keysOf(1), 0.3), 0.28);
+  }
+}
+
+TEST(RobustMesh, RoughSurfacesHaveRoomForBothLayers) {
+  const Mesh rough = lab::smoothLaplacian(lab::bumpyGrid(120, 120, 3), 0.03, 10);
+  const RobustEmbedding out = embedRobust(rough, payloadOf(13), keysOf(1)).value();
+  EXPECT_GT(out.carriers, out.selected / 3);
+  EXPECT_GT(out.cells, 5 * out.goodCells);
 }
 
 TEST(RobustMesh, DiamondsSurviveSimplification) {
@@ -215,7 +234,7 @@ TEST(RobustMesh, CapsDisplacement) {
   EXPECT_LT(capped.cells + capped.carriers, free.cells + free.carriers);
   EXPECT_GT(capped.carriers, 0u);
   const RobustEmbedding still = embedRobust(mesh, payloadOf(1), keysOf(1), {.maxSlideRel = 5e-4}).value();
-  EXPECT_LE(still.largestSlide, 1.25 * 5e-4 * diagonal) << "each layer has its own idea of the surface's direction";
+  EXPECT_LE(still.largestSlide, (5e-4 + 1e-5) * diagonal) << "but for the jitter that conceals cells";
   EXPECT_GT(free.largestSlide, 2 * still.largestSlide);
   EXPECT_GT(still.carriers, 0u);
 }

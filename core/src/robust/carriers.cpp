@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "carriers.h"
 
+#include <algorithm>
 #include <array>
 
+#include "lattice.h"
 #include "parallel.h"
 #include "quadmark/trig.h"
+#include "sorting.h"
 
 namespace quadmark::robust {
 namespace {
@@ -19,6 +22,32 @@ const SinCos* turns(std::size_t n) {
     return t;
   }();
   return table[n].data();
+}
+
+// Bits per coordinate, the fewest that give the model enough places. Only names from afar may hold several: they change
+// with every cut of the connectivity anyway, while a local name's carriers are fewer after a crop, which must not change
+// how the others are read.
+void assignBits(const Labels& labels, Carriers& out) {
+  out.bits.assign(out.count(), 1);
+  const auto isFar = [&](std::uint32_t carrier) { return labels.depth[out.vertex[carrier]] > kLabelDepth; };
+  std::vector<KeyedIndex> order(out.count());
+  bool anyFar = false;
+  for (std::uint32_t i = 0; i < out.count(); ++i) {
+    anyFar = anyFar || isFar(i);
+    order[i] = {out.label[i], i};
+  }
+  if (!anyFar) return;
+  sortByKey(order);
+  std::size_t places = 0;
+  for (std::uint32_t bits = 1; bits <= kMostRingBits && places < kEnoughRingPlaces; ++bits) {
+    places = 0;
+    for (std::size_t first = 0, next = 0; first < order.size(); first = next) {
+      while (next < order.size() && order[next].key == order[first].key) ++next;
+      const std::uint32_t most = isFar(order[first].index) ? mostRingBits(next - first) : 1, held = std::min(bits, most);
+      places += 2 * held;
+      for (std::size_t i = first; i < next; ++i) out.bits[order[i].index] = static_cast<std::uint8_t>(held);
+    }
+  }
 }
 
 }  // namespace
@@ -44,6 +73,7 @@ Carriers selectCarriers(const Surface& surface, const Prf& select) {
     out.rings.insert(out.rings.end(), order, order + ring.size());
     out.ringOffsets.push_back(static_cast<std::uint32_t>(out.rings.size()));
   }
+  assignBits(labels, out);
   return out;
 }
 

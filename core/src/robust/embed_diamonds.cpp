@@ -11,17 +11,6 @@
 namespace quadmark::robust {
 namespace {
 
-std::vector<std::uint8_t> sharpVertices(const std::vector<double>& positions, const std::vector<Diamond>& diamonds,
-                                        double cosine) {
-  std::vector<std::uint8_t> sharp(positions.size() / 3, 0);
-  for (const Diamond& q : diamonds) {
-    const Vec3 a = at(positions, q.a), b = at(positions, q.b), c = at(positions, q.c), d = at(positions, q.d);
-    const Vec3 left = cross(b - a, d - a), right = cross(d - c, b - c);
-    if (dot(left, right) < cosine * length(left) * length(right)) sharp[q.b] = sharp[q.d] = 1;
-  }
-  return sharp;
-}
-
 bool isFree(const Diamond& q, const std::vector<std::uint8_t>& occupied) {
   return (occupied[q.a] | occupied[q.b] | occupied[q.c] | occupied[q.d]) == 0;
 }
@@ -42,15 +31,15 @@ class Writer {
     Vec3 gap;
     double norm = 0;
     for (int k = 0; k < 4; ++k) gap += weight[k] * old[k], norm += weight[k] * weight[k];
-    const Vec3 normal = normalized(cross(old[2] - old[0], old[3] - old[1]));
-    double farthest = 0, slide = 0;
+    bool bad = false;
     for (int k = 0; k < 4; ++k) {
       const Vec3 move = (-weight[k] / norm) * gap;
       put(positions_, vertex[k], old[k] + move);
-      farthest = std::max(farthest, length(move));
-      slide = std::max(slide, length(move - dot(move, normal) * normal));
+      const double farthest = length(move);
+      bad = bad || farthest > limits_.maxMove ||
+            (farthest > limits_.maxSlide &&
+             slideOf(move, vertexNormal(surface_, facesAround_, vertex[k], surface_.welded.positions)) > limits_.maxSlide);
     }
-    bool bad = farthest > limits_.maxMove || slide > limits_.maxSlide;
     for (int k = 0; k < 4 && !bad; ++k)
       for (const std::uint32_t f : facesAround_.of(vertex[k])) {
         if (bad) break;
@@ -82,14 +71,13 @@ class Writer {
 }  // namespace
 
 DiamondCandidates findCandidates(const Surface& surface, std::vector<Diamond> diamonds, const DeltaClass& shape,
-                                 const DiamondLimits& limits, const std::vector<std::uint8_t>& occupied,
-                                 const std::vector<double>& positions) {
-  const std::vector<std::uint8_t> sharp = sharpVertices(positions, diamonds, limits.sharpCosine);
+                                 const DiamondLimits& limits, const std::vector<std::uint8_t>& creased,
+                                 const std::vector<std::uint8_t>& occupied, const std::vector<double>& positions) {
   std::vector<Candidate> items;
   const Survival survival(surface, positions);
   DiamondShape s;
   for (const Diamond& q : diamonds) {
-    if (!isFree(q, occupied) || !isFree(q, sharp)) continue;
+    if (!isFree(q, occupied) || !isFree(q, creased)) continue;
     if (!diamondShape(positions, q, s) || s.gapLength > limits.mostGap * std::min(s.edgeLength, s.spanLength)) continue;
     const auto [edge, span] = ratiosOf(s);
     if (!fineCell(edge, span, shape).isIn(shape)) continue;

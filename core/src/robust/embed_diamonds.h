@@ -14,7 +14,6 @@ namespace quadmark::robust {
 
 struct DiamondLimits {
   double mostGap = 0.05;              ///< natural gap of a candidate, of its shorter diagonal
-  double sharpCosine = 0;             ///< vertices of edges with a larger dihedral angle are left alone
   double turnCosine = 0;              ///< cosine of the largest turn of an incident face against the original
   double farQuota = 0;                ///< cells per vertex up to which far candidates may fill up a good cell's share
   double leastFar = 2, mostFar = 10;  ///< bounds of that share, cells
@@ -39,11 +38,13 @@ struct DiamondCandidates {
   std::vector<Candidate> items;  ///< one per diamond
 };
 
-/// Those within the limits, off occupied vertices and sharp edges. Takes the list of all diamonds, which is much memory,
+/// Those within the limits, off occupied vertices and creases. Takes the list of all diamonds, which is much memory,
 /// and gives that of the others back.
+/// @param creased    per welded vertex: 1 = on a crease (creaseVertices()).
 /// @param occupied   per welded vertex: 1 = not to be moved.
 [[nodiscard]] DiamondCandidates findCandidates(const Surface& surface, std::vector<Diamond> diamonds,
                                                const DeltaClass& shape, const DiamondLimits& limits,
+                                               const std::vector<std::uint8_t>& creased,
                                                const std::vector<std::uint8_t>& occupied,
                                                const std::vector<double>& positions);
 

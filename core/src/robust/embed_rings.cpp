@@ -64,8 +64,8 @@ double chooseRingStep(const Carriers& carriers, const std::vector<double>& posit
   return kRingSteps[std::size(kRingSteps) - 1];
 }
 
-std::vector<std::uint32_t> embedRings(const Carriers& carriers, const RingCode& code, const CodedPayload& payload,
-                                      const SymmetricTensor& tensor, const RingLimits& limits,
+std::vector<std::uint32_t> embedRings(const Surface& surface, const FacesAround& facesAround, const Carriers& carriers,
+                                      const RingCode& code, const CodedPayload& payload, const SymmetricTensor& tensor, const RingLimits& limits,
                                       const std::vector<std::uint8_t>& dropped, std::vector<double>& positions) {
   const Sharing sharing = payload.hasBody() ? Sharing::split : Sharing::headOnly;
   std::vector<std::uint32_t> written;
@@ -78,15 +78,19 @@ std::vector<std::uint32_t> embedRings(const Carriers& carriers, const RingCode& 
     if (std::fabs(p.alpha) > limits.maxCoordinate || std::fabs(p.beta) > limits.maxCoordinate) continue;
     double* coordinate[2] = {&p.alpha, &p.beta};
     for (int k = 0; k < 2; ++k) {
-      const RingSlot slot = code.slot(carriers.label[i], k);
-      const auto& bits = slot.stream(sharing) == Stream::head ? payload.head : payload.body;
-      const bool bit = (bits[slot.index % bits.size()] != 0) != slot.pad;
-      *coordinate[k] = nearestLatticePoint(*coordinate[k], limits.step, slot.offset, bit);
+      const std::uint32_t bits = carriers.bits[i];
+      const RingPlace place = code.place(carriers.label[i], k, bits);
+      const double phase = phaseOf(valueAt({place.slot, bits}, payload, sharing), bits);
+      *coordinate[k] = nearestLatticePoint(*coordinate[k], limits.step, place.offset, phase);
     }
     Vec3 to = pointAt(frame, p);
     to += toFan(to, frame.e3, from, positions, ring) * frame.e3;
-    const Vec3 move = to - from, normal = normalized(cross(frame.e1, frame.e2));
-    if (length(move) > limits.maxMove || length(move - dot(move, normal) * normal) > limits.maxSlide) continue;
+    const Vec3 move = to - from;
+    const double distance = length(move);
+    if (distance > limits.maxMove) continue;
+    if (distance > limits.maxSlide &&
+        slideOf(move, vertexNormal(surface, facesAround, carriers.vertex[i], surface.welded.positions)) > limits.maxSlide)
+      continue;
     if (vetoed(from, to, positions, ring, limits)) continue;
     put(positions, carriers.vertex[i], to);
     written.push_back(i);

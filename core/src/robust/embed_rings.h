@@ -28,7 +28,8 @@ struct RingLimits {
 /// Moves carriers of `positions` in place; the lattice coordinates change, the third one follows the old surface.
 /// @param dropped  one flag per carrier: 1 = leave it alone.
 /// @return the carriers written, ascending.
-[[nodiscard]] std::vector<std::uint32_t> embedRings(const Carriers& carriers, const RingCode& code,
+[[nodiscard]] std::vector<std::uint32_t> embedRings(const Surface& surface, const FacesAround& facesAround,
+                                                    const Carriers& carriers, const RingCode& code,
                                                     const CodedPayload& payload, const SymmetricTensor& tensor,
                                                     const RingLimits& limits,
                                                     const std::vector<std::uint8_t>& dropped,

@@ -3,78 +3,22 @@
 
 #include <algorithm>
 
-#include "distortion_budget.h"
-#include "embed_diamonds.h"
-#include "embed_rings.h"
+#include "creases.h"
 #include "ground.h"
 #include "median.h"
 #include "parallel.h"
+#include "presets.h"
 #include "quadmark/random.h"
-#include "quadmark/trig.h"
 #include "sorting.h"
 
 namespace quadmark::robust {
 namespace {
 
-struct Preset {
-  RingLimits ring;
-  DiamondLimits diamond;
-  double mostStep;     ///< of layer A's lattice, ring radii
-  double maxError;     ///< of the diagonal
-  double concealment;  ///< jitter of cells that were not flat, of the diagonal
-  double budget;       ///< of the mean distortion that `standard` may cause
-};
-
-double cosineOf(double degrees) {
-  return sinCosTurns(degrees / 360).cos;
-}
-
-// What each strength spends. Distortion and survival of each are in docs/robust.md.
-Preset presetOf(Strength strength) {
-  struct Row {
-    double step, crease, ringTurn, gap, sharp, cellTurn, farQuota, mostFar, maxError, concealment, budget;
-  };
-  static constexpr Row kRows[] = {
-      {0.5, 12, 5, 0.012, 35, 4, 0.03, 6, 2e-3, 1e-5, 0.5},     // invisible
-      {0.7, 25, 10, 0.05, 35, 10, 0.075, 10, 6e-3, 1e-5, 1},  // standard
-      {0.9, 35, 20, 0.1, 60, 20, 0.135, 100, 1.5e-2, 0, 1e9},  // strong
-  };
-  const Row& row = kRows[static_cast<int>(strength)];
-  Preset out;
-  out.ring.creaseCosine = cosineOf(row.crease);
-  out.ring.turnCosine = cosineOf(row.ringTurn);
-  out.diamond.mostGap = row.gap;
-  out.diamond.sharpCosine = cosineOf(row.sharp);
-  out.diamond.turnCosine = cosineOf(row.cellTurn);
-  out.diamond.farQuota = row.farQuota;
-  out.diamond.mostFar = row.mostFar;
-  out.mostStep = row.step;
-  out.maxError = row.maxError;
-  out.concealment = row.concealment;
-  out.budget = row.budget;
-  return out;
-}
-
-// What the whole mark may do at `standard`: vertex normals turn by half a degree; surfaces lie .006 % of the diagonal
-// apart, on coarse meshes more, as these are farther from the smooth surface that they approximate: .01 % where there are
-// about 10 000 vertices, and one part in as many as there are below.
-constexpr double kMeanTurn = 0.0087, kSurfaceRms = 5.9e-5, kSurfaceRmsCoarse = 9.8e-5;
-constexpr double kCoarse = 10000, kCoarseEnd = 12500;  // vertices
-
-double surfaceRmsFor(double vertices) {
-  if (vertices <= kCoarse) return kSurfaceRmsCoarse * kCoarse / vertices;
-  const double fall = std::min(1.0, kCoarseEnd / vertices);
-  return std::max(kSurfaceRms, kSurfaceRmsCoarse * fall * fall);
-}
-
 // Shares do not add up exactly: aim a little lower, and look again.
 constexpr double kBudgetShare = 0.98;
 constexpr int kBudgetRounds = 6;
-
-DistortionLimits limitsOf(const Preset& preset, const Surface& surface, double diagonal) {
-  const double rms = surfaceRmsFor(std::max(1u, surface.vertexCount()));
-  return {preset.budget * kMeanTurn, preset.budget * rms * diagonal};
-}
+// Less than this share of both limits is little: spheres and machined parts, which use .15 to .45.
+constexpr double kSlackShare = 0.47;
 
 // Exactly flat quadrilaterals are a beacon that needs no key. Cells get a gap of the size that 14-bit quantization gives
 // them anyway, along their normals so that the ratios stay; those that were flatter before get back about half of what they had.
@@ -114,57 +58,213 @@ std::uint8_t chooseDelta(const std::vector<Diamond>& diamonds, const std::vector
   return 5;
 }
 
-// Undoes the dearest cells, and marks the dearest carriers, until what is left should keep within the limits; all
-// carriers return to where they were, to be written anew. False where nothing had to go.
-bool giveUp(const Surface& surface, ChangeMeter& change, const Carriers& carriers, const DistortionLimits& limits,
-            std::uint32_t symbolBits, const std::vector<std::uint32_t>& written, std::vector<WrittenCell>& cells,
-            std::vector<std::uint8_t>& droppedCarriers, std::vector<double>& positions) {
-  const std::vector<double>& original = surface.welded.positions;
-  change.measure(positions);
-  const double turns = limits.turn * surface.vertexCount();
-  const double squares = limits.surfaceRms * limits.surfaceRms * surface.vertexCount();
-  if (change.turns() <= turns && change.squares() <= squares) return false;
-  std::vector<Expense> expenses;
-  for (const std::uint32_t i : written)
-    expenses.push_back({change.turnOf(carriers.vertex[i]), change.squareOf(carriers.vertex[i]), 2});
-  for (const WrittenCell& cell : cells) {
-    Expense e{0, 0, static_cast<double>(symbolBits)};
-    const Diamond& q = cell.diamond;
-    for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) e.turn += change.turnOf(v), e.square += change.squareOf(v);
-    expenses.push_back(e);
-  }
-  const std::vector<std::uint8_t> dropped = expensesToDrop(expenses, kBudgetShare * turns, kBudgetShare * squares);
-  for (std::size_t i = 0; i < written.size(); ++i) {
-    droppedCarriers[written[i]] |= dropped[i];
-    put(positions, carriers.vertex[written[i]], at(original, carriers.vertex[written[i]]));
-  }
-  std::vector<WrittenCell> kept;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Diamond& q = cells[i].diamond;
-    if (dropped[written.size() + i] == 0)
-      kept.push_back(cells[i]);
-    else
-      for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) put(positions, v, at(original, v));
-  }
-  cells = std::move(kept);
-  return true;
-}
+// Both layers on one surface.
+class Embedder {
+ public:
+  Embedder(const Mesh& mesh, const CodedPayload& payload, const RobustKeys& keys, const Preset& preset, double diagonal)
+      : mesh_(mesh),
+        payload_(payload),
+        sharing_(payload.hasBody() ? Sharing::split : Sharing::headOnly),
+        preset_(preset),
+        diagonal_(diagonal),
+        ground_(groundOf(mesh, keys)),
+        surface_(ground_->surface),
+        carriers_(ground_->carriers),
+        original_(surface_.welded.positions),
+        positions_(original_),
+        ringCode_(keys),
+        jitter_(keys.assignment),
+        diamonds_(collectDiamonds(surface_)),
+        creased_(findCreases()),
+        deltaClass_(chooseDelta(diamonds_, original_, payload.bodyInformation())),
+        constellation_(deltaClass_, keys, sharing_, payload.headCode(), payload.bodyCode()) {}
 
-std::uint32_t countSet(const std::vector<std::uint8_t>& flags) {
-  return static_cast<std::uint32_t>(std::count(flags.begin(), flags.end(), 1));
-}
+  // Layer B, off the carriers but across their rings: A is written on the result, so neither sees the other.
+  void writeCells() {
+    std::vector<std::uint8_t> occupied(surface_.vertexCount(), 0);
+    for (const std::uint32_t v : carriers_.vertex) occupied[v] = 1;
+    DiamondCandidates candidates = findCandidates(surface_, std::move(diamonds_), constellation_.shape(), preset_.diamond,
+                                                  creased_, occupied, positions_);
+    forgetRings(surface_);
+    if (!facesAround_) facesAround_ = std::make_unique<FacesAround>(surface_);
+    cells_ = embedDiamonds(surface_, *facesAround_, std::move(candidates), constellation_, payload_, preset_.diamond,
+                           occupied, positions_);
+    conceal(cells_.cells, jitter_, preset_.concealment * diagonal_, positions_);
+  }
+
+  // Layer A. Where both together are more than the preset allows, the dearest parts go; where they are much less, cells
+  // may come from farther. Then A is written again.
+  void writeCarriers() {
+    const DistortionLimits limits = limitsOf(preset_, surface_.vertexCount(), diagonal_);
+    change_ = std::make_unique<ChangeMeter>(surface_, *facesAround_);
+    dropped_.assign(carriers_.count(), 0);
+    for (int round = 0;; ++round) {
+      const SymmetricTensor tensor = edgeTensor(surface_, positions_);
+      if (round == 0)
+        preset_.ring.step = std::min(preset_.mostStep, chooseRingStep(carriers_, positions_, tensor, diagonal_));
+      written_ = embedRings(surface_, *facesAround_, carriers_, ringCode_, payload_, tensor, preset_.ring, dropped_, positions_);
+      if (round == kBudgetRounds || preset_.budget > 1) return;
+      change_->measure(positions_);
+      if (round == 0 && preset_.slackQuota > 1 && isWithin(limits, kSlackShare))
+        writeMoreCells();
+      else if (isWithin(limits, 1))
+        return;
+      else
+        giveUp(limits);
+    }
+  }
+
+  [[nodiscard]] RobustEmbedding result() const {
+    RobustEmbedding out;
+    placeVertices(out);
+    count(out);
+    out.diagonal = diagonal_;
+    out.ground = ground_;
+    return out;
+  }
+
+ private:
+  // The vertices on creases, for cells; for carriers, which look at their own fans, the limit.
+  std::vector<std::uint8_t> findCreases() {
+    const std::vector<float> bends = edgeBends(diamonds_, original_);
+    const double typical = medianOf(bends);
+    const double ofRing = creaseBend(typical, preset_.ringCrease, preset_.ofRoughness);
+    preset_.ring.creaseCosine = 1 - 0.5 * ofRing * ofRing;
+    return creaseVertices(surface_.vertexCount(), diamonds_, bends,
+                          creaseBend(typical, preset_.cellCrease, preset_.ofRoughness));
+  }
+
+  [[nodiscard]] bool isWithin(const DistortionLimits& limits, double share) const {
+    const double turns = share * limits.turn * surface_.vertexCount();
+    const double root = share * limits.surfaceRms, squares = root * root * surface_.vertexCount();
+    return change_->turns() <= turns && change_->squares() <= squares;
+  }
+
+  // All anew, with more candidates from farther: smooth surfaces whose diamonds are all alike have few near most good
+  // cells. (Nine spheres and machined parts, keys 1 to 3, of 378 readings exact: 252 without, 269 with twice and 273
+  // with three times the quota, for 1 and 1.5 dB of sliding. Models that use more of their budget gain nothing by it.)
+  void writeMoreCells() {
+    preset_.diamond.farQuota *= preset_.slackQuota;
+    preset_.diamond.mostFar *= preset_.slackQuota;
+    positions_ = original_;
+    diamonds_ = collectDiamonds(surface_);
+    rememberRings(surface_);
+    writeCells();
+  }
+
+  // Undoes the dearest cells, and marks the dearest carriers, until what is left should keep within the limits; all
+  // carriers return to where they were, to be written anew.
+  void giveUp(const DistortionLimits& limits) {
+    std::vector<Expense> expenses;
+    for (const std::uint32_t i : written_)
+      expenses.push_back({change_->turnOf(carriers_.vertex[i]), change_->squareOf(carriers_.vertex[i]), 2});
+    for (const WrittenCell& cell : cells_.cells) {
+      Expense e{0, 0, static_cast<double>(constellation_.shape().symbol)};
+      const Diamond& q = cell.diamond;
+      for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) e.turn += change_->turnOf(v), e.square += change_->squareOf(v);
+      expenses.push_back(e);
+    }
+    const double turns = limits.turn * surface_.vertexCount();
+    const double squares = limits.surfaceRms * limits.surfaceRms * surface_.vertexCount();
+    const std::vector<std::uint8_t> dropped = expensesToDrop(expenses, kBudgetShare * turns, kBudgetShare * squares);
+    for (std::size_t i = 0; i < written_.size(); ++i) {
+      dropped_[written_[i]] |= dropped[i];
+      put(positions_, carriers_.vertex[written_[i]], at(original_, carriers_.vertex[written_[i]]));
+    }
+    std::vector<WrittenCell> kept;
+    for (std::size_t i = 0; i < cells_.cells.size(); ++i) {
+      const Diamond& q = cells_.cells[i].diamond;
+      if (dropped[written_.size() + i] == 0)
+        kept.push_back(cells_.cells[i]);
+      else
+        for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) put(positions_, v, at(original_, v));
+    }
+    cells_.cells = std::move(kept);
+  }
+
+  // Back to the file's vertices and precision.
+  void placeVertices(RobustEmbedding& out) const {
+    out.positions = mesh_.positions;
+    out.displacement.assign(mesh_.vertexCount(), 0.0f);
+    for (std::size_t v = 0; v < mesh_.vertexCount(); ++v) {
+      const std::uint32_t w = surface_.welded.weldedOf[v];
+      if (w == kNoVertex) continue;
+      const Vec3 from = at(original_, w), to = at(positions_, w);
+      if (from.x == to.x && from.y == to.y && from.z == to.z) continue;
+      const bool single = mesh_.precision == Precision::float32;
+      const double exact[3] = {to.x, to.y, to.z};
+      for (int k = 0; k < 3; ++k) out.positions[3 * v + k] = single ? nearestFloat32(exact[k]) : exact[k];
+      const Vec3 move = at(out.positions, v) - from, &normal = change_->normal(w);
+      out.displacement[v] = static_cast<float>(length(move));
+      out.largestSlide = std::max(out.largestSlide, slideOf(move, normal));
+    }
+  }
+
+  void count(RobustEmbedding& out) const {
+    out.selected = carriers_.count();
+    out.carriers = static_cast<std::uint32_t>(written_.size());
+    std::vector<std::uint64_t> labels;
+    constexpr std::uint8_t kRing = 1, kDiamond = 2;
+    std::vector<std::uint8_t> hit[2];  // by stream: which layers hold each coded bit
+    hit[0].assign(payload_.head.size(), 0);
+    hit[1].assign(payload_.body.size(), 0);
+    for (const std::uint32_t i : written_) {
+      labels.push_back(carriers_.label[i]);
+      for (int k = 0; k < 2; ++k) {
+        const RingPlace place = ringCode_.place(carriers_.label[i], k, carriers_.bits[i]);
+        for (std::uint32_t t = 0; t < carriers_.bits[i]; ++t) {
+          auto& of = hit[place.slot[t].stream(sharing_) == Stream::body];
+          of[place.slot[t].index % of.size()] |= kRing;
+        }
+      }
+    }
+    for (const WrittenCell& cell : cells_.cells)
+      for (std::uint32_t t = 0; t < constellation_.shape().symbol; ++t) {
+        const Constellation::Slot& slot = constellation_.slot(cell.meaning / constellation_.symbols(), t);
+        hit[slot.stream == Stream::body][slot.bit] |= kDiamond;
+      }
+    sortCompactly(labels.begin(), labels.end());
+    out.labels = static_cast<std::uint32_t>(std::unique(labels.begin(), labels.end()) - labels.begin());
+    out.cells = static_cast<std::uint32_t>(cells_.cells.size());
+    out.symbolBits = constellation_.shape().symbol;
+    out.vetoed = cells_.vetoed;
+    out.goodCells = constellation_.groups();
+    out.deltaClass = deltaClass_;
+    for (const std::uint8_t layers : hit[0]) {
+      out.ringPositions += layers & kRing;
+      out.diamondPositions += layers / kDiamond;
+      out.headPositions += layers != 0;
+    }
+    for (const std::uint8_t layers : hit[1]) {
+      out.ringBodyPositions += layers & kRing;
+      out.diamondBodyPositions += layers / kDiamond;
+    }
+  }
+
+  const Mesh& mesh_;
+  const CodedPayload& payload_;
+  const Sharing sharing_;
+  Preset preset_;
+  const double diagonal_;
+  const std::shared_ptr<Ground> ground_;
+  Surface& surface_;
+  const Carriers& carriers_;
+  const std::vector<double>& original_;
+  std::vector<double> positions_;
+  const RingCode ringCode_;
+  const Prf jitter_;
+  std::vector<Diamond> diamonds_;  // until candidates are made of them
+  const std::vector<std::uint8_t> creased_;
+  const std::uint8_t deltaClass_;
+  const Constellation constellation_;
+  std::unique_ptr<FacesAround> facesAround_;
+  DiamondEmbedding cells_;
+  std::unique_ptr<ChangeMeter> change_;
+  std::vector<std::uint8_t> dropped_;   // per carrier
+  std::vector<std::uint32_t> written_;  // carriers
+};
 
 }  // namespace
-
-const char* strengthName(Strength strength) {
-  return strength == Strength::invisible ? "invisible" : strength == Strength::standard ? "standard" : "strong";
-}
-
-Result<Strength> strengthFrom(std::string_view name) {
-  for (const Strength strength : {Strength::invisible, Strength::standard, Strength::strong})
-    if (name == strengthName(strength)) return strength;
-  return Error{ErrorCode::badOption, "strength: expected \"invisible\", \"standard\" or \"strong\""};
-}
 
 Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payload, const RobustKeys& keys,
                                     const EmbedOptions& options) {
@@ -187,99 +287,12 @@ Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payloa
   preset.diamond.maxMove = (maxError - 2 * preset.concealment) * diagonal;
   if (options.maxSlideRel > 0) preset.ring.maxSlide = preset.diamond.maxSlide = options.maxSlideRel * diagonal;
   if (cancelled("surface", 0)) return aborted;
-  const std::shared_ptr<Ground> ground = groundOf(mesh, keys);
-  Surface& surface = ground->surface;
-  const Carriers& carriers = ground->carriers;
-  std::vector<double> positions = surface.welded.positions;
-  RobustEmbedding out;
-
-  // 1. Layer B, off the carriers but across their rings: A is written on the result, so neither sees the other.
+  Embedder embedder(mesh, payload, keys, preset, diagonal);
   if (cancelled("diamonds", 0.3)) return aborted;
-  std::vector<Diamond> diamonds = collectDiamonds(surface);
-  const Sharing sharing = payload.hasBody() ? Sharing::split : Sharing::headOnly;
-  out.deltaClass = chooseDelta(diamonds, positions, payload.bodyInformation());
-  const Constellation constellation(out.deltaClass, keys, sharing, payload.headCode(), payload.bodyCode());
-  std::vector<std::uint8_t> occupied(surface.vertexCount(), 0);
-  for (const std::uint32_t v : carriers.vertex) occupied[v] = 1;
-  DiamondCandidates candidates =
-      findCandidates(surface, std::move(diamonds), constellation.shape(), preset.diamond, occupied, positions);
-  forgetRings(surface);
-  const FacesAround facesAround(surface);
-  DiamondEmbedding cells =
-      embedDiamonds(surface, facesAround, std::move(candidates), constellation, payload, preset.diamond, occupied,
-                    positions);
-  conceal(cells.cells, Prf(keys.assignment), preset.concealment * diagonal, positions);
-
-  // 2. Layer A. Where both together are more than the preset allows, the dearest parts go, and A is written again.
+  embedder.writeCells();
   if (cancelled("rings", 0.8)) return aborted;
-  const RingCode code(keys);
-  const DistortionLimits limits = limitsOf(preset, surface, diagonal);
-  ChangeMeter change(surface, facesAround);
-  std::vector<std::uint8_t> droppedCarriers(carriers.count(), 0);
-  std::vector<std::uint32_t> written;
-  for (int round = 0;; ++round) {
-    const SymmetricTensor tensor = edgeTensor(surface, positions);
-    if (round == 0)
-      preset.ring.step = std::min(preset.mostStep, chooseRingStep(carriers, positions, tensor, diagonal));
-    written = embedRings(carriers, code, payload, tensor, preset.ring, droppedCarriers, positions);
-    if (round == kBudgetRounds || preset.budget > 1) break;
-    if (!giveUp(surface, change, carriers, limits, constellation.shape().symbol, written, cells.cells,
-                droppedCarriers, positions))
-      break;
-  }
-
-  // 3. Back to the file's vertices and precision.
-  out.positions = mesh.positions;
-  out.displacement.assign(mesh.vertexCount(), 0.0f);
-  for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
-    const std::uint32_t w = surface.welded.weldedOf[v];
-    if (w == kNoVertex) continue;
-    const Vec3 from = at(surface.welded.positions, w), to = at(positions, w);
-    if (from.x == to.x && from.y == to.y && from.z == to.z) continue;
-    const bool single = mesh.precision == Precision::float32;
-    const double exact[3] = {to.x, to.y, to.z};
-    for (int k = 0; k < 3; ++k) out.positions[3 * v + k] = single ? nearestFloat32(exact[k]) : exact[k];
-    const Vec3 move = at(out.positions, v) - from, &normal = change.normal(w);
-    out.displacement[v] = static_cast<float>(length(move));
-    out.largestSlide = std::max(out.largestSlide, length(move - dot(move, normal) * normal));
-  }
-
-  // 4. Counts.
-  out.selected = carriers.count();
-  out.carriers = static_cast<std::uint32_t>(written.size());
-  std::vector<std::uint64_t> labels;
-  std::vector<std::uint8_t> ringHit[2], diamondHit[2];
-  for (auto* hit : {ringHit, diamondHit}) {
-    hit[0].assign(payload.head.size(), 0);
-    hit[1].assign(payload.body.size(), 0);
-  }
-  for (const std::uint32_t i : written) {
-    labels.push_back(carriers.label[i]);
-    for (int k = 0; k < 2; ++k) {
-      const RingSlot slot = code.slot(carriers.label[i], k);
-      auto& hit = ringHit[slot.stream(sharing) == Stream::body];
-      hit[slot.index % hit.size()] = 1;
-    }
-  }
-  sortCompactly(labels.begin(), labels.end());
-  out.labels = static_cast<std::uint32_t>(std::unique(labels.begin(), labels.end()) - labels.begin());
-  for (const WrittenCell& cell : cells.cells)
-    for (std::uint32_t t = 0; t < constellation.shape().symbol; ++t) {
-      const Constellation::Slot& slot = constellation.slot(cell.meaning / constellation.symbols(), t);
-      diamondHit[slot.stream == Stream::body][slot.bit] = 1;
-    }
-  out.cells = static_cast<std::uint32_t>(cells.cells.size());
-  out.symbolBits = constellation.shape().symbol;
-  out.vetoed = cells.vetoed;
-  out.goodCells = constellation.groups();
-  out.ringPositions = countSet(ringHit[0]);
-  for (std::size_t i = 0; i < ringHit[0].size(); ++i) out.headPositions += ringHit[0][i] | diamondHit[0][i];
-  out.ringBodyPositions = countSet(ringHit[1]);
-  out.diamondPositions = countSet(diamondHit[0]);
-  out.diamondBodyPositions = countSet(diamondHit[1]);
-  out.diagonal = diagonal;
-  out.ground = ground;
-  return out;
+  embedder.writeCarriers();
+  return embedder.result();
 }
 
 }  // namespace quadmark::robust

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "quadmark/prf.h"
 #include "quadmark/random.h"
@@ -14,16 +15,28 @@ namespace quadmark::robust {
 /// Which of a payload's streams a slot carries.
 enum class Stream : std::uint8_t { head, body };
 
-/// What the key says about one coordinate (0 = alpha, 1 = beta) of a label.
+/// What the key says about one coded bit of a coordinate.
 struct RingSlot {
   std::uint32_t index = 0;     ///< picks the coded bit: index % bits of its stream
   bool pad = false;            ///< XORed to the coded bit
   bool headWhenSplit = false;  ///< its stream under Sharing::split
-  double offset = 0;           ///< of the lattice, in steps, 0..1
 
   [[nodiscard]] Stream stream(Sharing sharing) const {
     return sharing == Sharing::headOnly || headWhenSplit ? Stream::head : Stream::body;
   }
+};
+
+/// Names that many carriers share (symmetric subdivision surfaces repeat each up to 60 times) are few, but each is told by so
+/// many votes that a coordinate can hold several coded bits: 2^bits points per lattice step instead of two.
+inline constexpr std::uint32_t kMostRingBits = 5;
+constexpr std::uint32_t mostRingBits(std::size_t copies) { return copies >= 48 ? 5 : copies >= 16 ? 3 : 1; }
+/// A model whose names give so many places needs no more bits in any of them: one and a half for each bit of a head.
+inline constexpr std::size_t kEnoughRingPlaces = 400;
+
+/// One coordinate (0 = alpha, 1 = beta) of a label.
+struct RingPlace {
+  double offset = 0;            ///< of the lattice, in steps, 0..1
+  RingSlot slot[kMostRingBits]; ///< as many as were asked for
 };
 
 /// Of 16 slots, this many carry the head when there is a body: the head is short, but nothing is read without it.
@@ -34,33 +47,37 @@ class RingCode {
  public:
   explicit RingCode(const RobustKeys& keys) : dither_(keys.dither), share_(keys.share) {}
 
-  [[nodiscard]] RingSlot slot(std::uint64_t label, int coordinate) const {
-    const std::uint64_t item = label ^ (coordinate == 0 ? 0 : 0x9e3779b97f4a7c15u), word = dither_(item);
-    RingSlot out;
-    out.pad = (word & 1) != 0;
-    out.index = static_cast<std::uint32_t>(word >> 32);
-    out.headWhenSplit = share_(item) % 16 < kHeadSixteenths;
-    out.offset = static_cast<double>(Random::mix(word) >> 11) * 0x1p-53;
-    return out;
-  }
+  [[nodiscard]] RingPlace place(std::uint64_t label, int coordinate, std::uint32_t bits) const;
 
  private:
   Prf dither_, share_;
 };
 
-/// The point of the lattice for a padded bit that is nearest to a coordinate. The lattice of 0 is
-/// step * (Z + offset), that of 1 lies half a step further.
-inline double nearestLatticePoint(double coordinate, double step, double offset, bool bit) {
-  const double shift = offset + (bit ? 0.5 : 0.0);
+/// The value that a payload gives to a place: bit t is the coded bit of slot t, padded.
+[[nodiscard]] std::uint32_t valueAt(std::span<const RingSlot> slots, const CodedPayload& payload, Sharing sharing);
+
+/// Which value the point (k + 1/2) / 2^bits of a step means, for two bits and more: Gray's code, whose bits are the signs of
+/// the cosine, the sine, and the cosines of 2, 4, ... times the phase. (One bit: 0 at phase 0, 1 at 1/2.)
+[[nodiscard]] std::uint32_t valueOfPoint(std::uint32_t k, std::uint32_t bits);
+
+/// Phase of the point for a value, in steps, 0..1.
+[[nodiscard]] double phaseOf(std::uint32_t value, std::uint32_t bits);
+
+/// The lattice point of a phase that is nearest to a coordinate: one of step * (Z + offset + phase).
+inline double nearestLatticePoint(double coordinate, double step, double offset, double phase) {
+  const double shift = offset + phase;
   return step * (std::floor(coordinate / step - shift + 0.5) + shift);
 }
 
-/// Where a coordinate lies between the two lattices: 1 on that of 0, -1 on that of 1, linear between.
+/// 1 on a lattice, -1 half a step from it, linear between.
 inline double latticeVote(double coordinate, double step, double offset) {
   double x = coordinate / step - offset;
   x -= std::floor(x + 0.5);
   return 1 - 4 * std::fabs(x);
 }
+
+/// How far a coordinate speaks for bit t of the value being 0 (above 0) or 1 (below).
+[[nodiscard]] double bitVote(double coordinate, double step, double offset, std::uint32_t t);
 
 /// Steps of the lattice, in ring radii: the embedder takes larger ones where rings are small, so that noise of one size
 /// for the whole model does as little harm there as elsewhere; the reader tries all.

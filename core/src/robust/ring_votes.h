@@ -2,7 +2,9 @@
 // Reading layer A: what the carriers' coordinates say about coded bits.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "carriers.h"
@@ -37,7 +39,7 @@ class RingVotes {
   /// Looks at no payload, so choosing the best of several steps by it costs no significance.
   [[nodiscard]] double fit(const RingView& view) const;
 
-  /// One vote per label and coordinate, unweighted: does its sign agree with the expected bit?
+  /// One vote per label, coordinate and bit, unweighted: does its sign agree with the expected bit?
   void countAgreement(double step, const StreamSelection& selection, const std::vector<std::uint8_t>& expected,
                       Agreement& out) const;
 
@@ -56,20 +58,31 @@ class RingVotes {
     std::uint32_t carrier;
   };
   struct Label {
-    RingSlot slot[2];
+    double offset[2];
     std::uint32_t begin, end;  // of its samples
+    std::uint32_t firstSlot;   // of its slots: those of alpha, then as many of beta
+    std::uint32_t bits;        // per coordinate
   };
   // Densities of a coordinate if its carrier holds 0 or 1; 1 is the density of one that holds nothing.
   struct Densities {
     double zero, one;
   };
+  // Log-likelihood of each value that a coordinate of several bits may hold, over that of holding nothing.
+  using ValueScores = std::array<double, std::size_t{1} << kMostRingBits>;
+
   static Densities densitiesAt(double distance, double spread);
-  [[nodiscard]] double vote(const Sample& sample, const Label& label, int coordinate, double step) const;
-  [[nodiscard]] std::vector<Densities> densities(const RingView& view) const;
   [[nodiscard]] static double estimateShare(const std::vector<Densities>& densities);
+  [[nodiscard]] std::span<const RingSlot> slots(const Label& label, int coordinate) const {
+    return {slots_.data() + label.firstSlot + static_cast<std::uint32_t>(coordinate) * label.bits, label.bits};
+  }
+  [[nodiscard]] double spread(const Sample& sample, const RingView& view) const;
+  // Of the samples of labels with one bit per coordinate, in the order of samples_.
+  [[nodiscard]] std::vector<Densities> densities(const RingView& view) const;
+  [[nodiscard]] ValueScores scores(const Label& label, int coordinate, const RingView& view) const;
 
   std::vector<Sample> samples_;
   std::vector<Label> labels_;
+  std::vector<RingSlot> slots_;
 };
 
 }  // namespace quadmark::robust
