@@ -113,6 +113,22 @@ TEST(RobustLabels, NameRegularGridsFromAfar) {
   EXPECT_TRUE(farNames(makeSurface(lab::sculpture(2000))).empty()) << "irregular meshes need none";
 }
 
+TEST(RobustLabels, OutlastVerticesThatBecomeOne) {
+  const int columns = 70;
+  const Mesh mesh = lab::bumpyGrid(columns, 60, 1);
+  const Surface before = makeSurface(mesh);
+  Mesh merged = mesh;
+  for (const std::uint32_t v : {columns * 20 + 30, columns * 40 + 12, columns * 33 + 50})
+    for (std::uint32_t k = 0; k < 3; ++k) merged.positions[3 * v + k] = merged.positions[3 * (v + 1) + k];
+  const Surface after = makeSurface(merged);
+  ASSERT_EQ(after.vertexCount() + 3, before.vertexCount());
+  const std::vector<std::uint64_t> names = farNames(before), left = farNames(after);
+  std::uint32_t same = 0;
+  for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v)
+    same += names[before.welded.weldedOf[v]] == left[after.welded.weldedOf[v]];
+  EXPECT_GT(same, mesh.vertexCount() * 9 / 10);
+}
+
 TEST(RobustSurvival, PrefersWhatSimplifiersKeep) {
   const Mesh mesh = lab::sculpture(6000);
   const Surface surface = makeSurface(mesh);

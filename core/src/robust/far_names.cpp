@@ -9,6 +9,8 @@ namespace quadmark::robust {
 namespace {
 
 constexpr std::size_t kNearest = 3;
+// One irregular vertex among more than so many: a grid or a subdivision surface.
+constexpr std::uint64_t kRegularModel = 100;
 
 // The vertices along the sides of the faces around each one, most of them twice. (By FacesAround, a polygon of a million
 // sides would be gone through at each of its corners.)
@@ -43,9 +45,8 @@ struct Arrival {
 
 // Breadth-first search from all sources at once; a vertex passes on the first kNearest sources that reach it. Which of
 // several equally near ones those are depends on the order of vertices, how far they are does not.
-std::vector<std::array<Arrival, kNearest>> nearestSources(const Surface& surface,
+std::vector<std::array<Arrival, kNearest>> nearestSources(const Surface& surface, const Neighbours& neighbours,
                                                           const std::vector<std::uint32_t>& sources) {
-  const Neighbours neighbours(surface);
   std::vector<std::array<Arrival, kNearest>> reached(surface.vertexCount());
   struct Visit {
     std::uint32_t vertex, source;
@@ -67,6 +68,20 @@ std::vector<std::array<Arrival, kNearest>> nearestSources(const Surface& surface
   return reached;
 }
 
+// Two vertices of a grid that quantization made one are three irregular vertices beside each other, and would name half of
+// the model anew; the corners of grids and the extraordinary vertices of subdivision surfaces stand alone.
+std::vector<std::uint32_t> thoseAlone(const std::vector<std::uint32_t>& irregular, const Surface& surface,
+                                      const Neighbours& neighbours) {
+  std::vector<std::uint32_t> out;
+  for (const std::uint32_t v : irregular) {
+    bool alone = true;
+    for (const std::uint32_t n : neighbours.of(v))
+      for (const std::uint32_t m : neighbours.of(n)) alone = alone && (m == v || isRegular(surface, m));
+    if (alone) out.push_back(v);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool isRegular(const Surface& surface, std::uint32_t vertex) {
@@ -81,7 +96,9 @@ std::vector<std::uint64_t> farNames(const Surface& surface) {
   for (std::uint32_t v = 0; v < count; ++v)
     if (!isRegular(surface, v)) irregular.push_back(v);
   if (10 * std::uint64_t{irregular.size()} > count) return {};
-  const auto reached = nearestSources(surface, irregular);
+  const Neighbours neighbours(surface);
+  if (kRegularModel * irregular.size() < count) irregular = thoseAlone(irregular, surface, neighbours);
+  const auto reached = nearestSources(surface, neighbours, irregular);
   std::vector<std::uint64_t> names(count);
   for (std::uint32_t v = 0; v < count; ++v) {
     std::uint64_t name = surface.cornerCounts[v];
