@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "far_names.h"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "quadmark/random.h"
 
@@ -73,11 +75,17 @@ std::vector<std::array<Arrival, kNearest>> nearestSources(const Surface& surface
 std::vector<std::uint32_t> thoseAlone(const std::vector<std::uint32_t>& irregular, const Surface& surface,
                                       const Neighbours& neighbours) {
   std::vector<std::uint32_t> out;
+  // Regular vertices have few neighbours, and others end the search: linear, whatever the mesh.
+  const auto areRegularAround = [&](std::uint32_t v, std::uint32_t apart) {
+    const auto around = neighbours.of(v);
+    return std::all_of(around.begin(), around.end(),
+                       [&](std::uint32_t n) { return n == apart || isRegular(surface, n); });
+  };
   for (const std::uint32_t v : irregular) {
-    bool alone = true;
-    for (const std::uint32_t n : neighbours.of(v))
-      for (const std::uint32_t m : neighbours.of(n)) alone = alone && (m == v || isRegular(surface, m));
-    if (alone) out.push_back(v);
+    const auto around = neighbours.of(v);
+    if (areRegularAround(v, v) &&
+        std::all_of(around.begin(), around.end(), [&](std::uint32_t n) { return areRegularAround(n, v); }))
+      out.push_back(v);
   }
   return out;
 }
@@ -97,7 +105,9 @@ std::vector<std::uint64_t> farNames(const Surface& surface) {
     if (!isRegular(surface, v)) irregular.push_back(v);
   if (10 * std::uint64_t{irregular.size()} > count) return {};
   const Neighbours neighbours(surface);
-  if (kRegularModel * irregular.size() < count) irregular = thoseAlone(irregular, surface, neighbours);
+  if (kRegularModel * irregular.size() < count)
+    if (std::vector<std::uint32_t> alone = thoseAlone(irregular, surface, neighbours); alone.size() >= kNearest)
+      irregular = std::move(alone);
   const auto reached = nearestSources(surface, neighbours, irregular);
   std::vector<std::uint64_t> names(count);
   for (std::uint32_t v = 0; v < count; ++v) {
