@@ -122,7 +122,8 @@ void runKey(const bench::NamedModel& model, int key, const Settings& settings, b
   std::vector<bench::NamedAttack> attacks;
   if (settings.attacks)
     for (const bench::NamedAttack& attack : bench::robustAttacks())
-      if (settings.wants(attack.name) && (!settings.image || bench::isForImages(attack.name)) && !results.has(keyOf("read", attack.name)))
+      if (settings.wants(attack.name) && (!settings.image || bench::isForImages(attack.name)) &&
+          !results.has(keyOf("read", attack.name)))
         attacks.push_back(attack);
   if (attacks.empty() && results.has(keyOf("mark", ""))) return;
 

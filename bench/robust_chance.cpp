@@ -60,7 +60,8 @@ struct Curve {
     for (std::size_t i = 0; i < std::size(kClaims); ++i) {
       std::uint32_t agreeing = votes.votes / 2;
       double p = 1;
-      while (agreeing <= votes.votes && (p = exactExp(logChance(Agreement{votes.votes, agreeing}))) > kClaims[i]) ++agreeing;
+      while (agreeing <= votes.votes && (p = exactExp(logChance(Agreement{votes.votes, agreeing}))) > kClaims[i])
+        ++agreeing;
       exact[i] += agreeing <= votes.votes ? p : 0;
     }
   }

@@ -130,6 +130,27 @@ TEST(RobustLabels, OutlastVerticesThatBecomeOne) {
   EXPECT_GT(same, mesh.vertexCount() / 2);
 }
 
+TEST(RobustLabels, NameComponentsWithoutALoneIrregularVertex) {
+  Mesh both = lab::quadSphere(5);
+  const auto first = static_cast<std::uint32_t>(both.vertexCount());
+  const Mesh cube = lab::cube();  // all corners irregular, and neighbours
+  both.positions.insert(both.positions.end(), cube.positions.begin(), cube.positions.end());
+  for (std::size_t i = 3 * std::size_t{first}; i < both.positions.size(); ++i) both.positions[i] += 10;
+  for (std::size_t f = 0; f < cube.faceCount(); ++f) {
+    for (std::size_t c = cube.faceBegin(f); c < cube.faceEnd(f); ++c) both.faceVertices.push_back(first + cube.faceVertices[c]);
+    both.faceOffsets.push_back(static_cast<std::uint32_t>(both.faceVertices.size()));
+  }
+  const Surface surface = makeSurface(both);
+  const std::vector<std::uint64_t> names = farNames(surface), alone = farNames(makeSurface(lab::quadSphere(5)));
+  ASSERT_EQ(names.size(), alone.size() + 8);
+  for (std::uint32_t v = 0; v < first; ++v) EXPECT_EQ(names[surface.welded.weldedOf[v]], alone[v]);
+  for (std::uint32_t v = first; v < both.vertexCount(); ++v) {
+    std::uint64_t nothingNear = surface.cornerCounts[surface.welded.weldedOf[v]];
+    for (int k = 0; k < 3; ++k) nothingNear = Random::mix(nothingNear * 0x9e3779b97f4a7c15u);
+    EXPECT_NE(names[surface.welded.weldedOf[v]], nothingNear);
+  }
+}
+
 TEST(RobustSurvival, PrefersWhatSimplifiersKeep) {
   const Mesh mesh = lab::sculpture(6000);
   const Surface surface = makeSurface(mesh);
@@ -316,6 +337,11 @@ TEST(RobustCreases, StandOutFromTheirSurface) {
   EXPECT_EQ(bends[2], 0);
   const std::vector<std::uint8_t> creased = creaseVertices(6, diamonds, bends, 0.5);
   EXPECT_EQ(creased, (std::vector<std::uint8_t>{0, 1, 1, 0, 0, 0})) << "the ends of the fold";
+
+  // Coordinates whose products overflow bend nothing, rather than being no numbers to sort.
+  std::vector<double> huge = positions;
+  for (double& x : huge) x *= 1e160;
+  for (const float bend : edgeBends(diamonds, huge)) EXPECT_EQ(bend, 0);
 
   EXPECT_EQ(creaseBend(0.1, 0.4, 5), 0.4) << "a smooth surface";
   EXPECT_DOUBLE_EQ(creaseBend(kRoughBend + 0.02, 0.4, 5), 0.5) << "a rough one";

@@ -5,7 +5,6 @@
 
 namespace quadmark {
 namespace {
-constexpr double kLn2 = 0x1.62e42fefa39efp-1;
 }
 
 double exactLog(double x) {

@@ -14,7 +14,7 @@ namespace quadmark::robust {
 struct Carriers {
   std::vector<std::uint32_t> vertex;       ///< welded vertex per carrier, no two of them neighbours
   std::vector<std::uint64_t> label;        ///< per carrier
-  std::vector<std::uint8_t> bits;          ///< coded bits per coordinate, per carrier (lattice.h); carriers of one label have as many
+  std::vector<std::uint8_t> bits;          ///< coded bits per coordinate, per carrier; one number per label
   std::vector<std::uint32_t> ringOffsets;  ///< carriers + 1
   std::vector<std::uint32_t> rings;        ///< each one's ring in canonical order
 

@@ -13,9 +13,9 @@ std::vector<float> edgeBends(const std::vector<Diamond>& diamonds, const std::ve
     const Diamond& q = diamonds[i];
     const Vec3 a = at(positions, q.a), b = at(positions, q.b), c = at(positions, q.c), d = at(positions, q.d);
     const Vec3 left = normalized(cross(b - a, d - a)), right = normalized(cross(d - c, b - c));
-    // Triangles without an area, whose normal is zero, bend nothing.
-    const bool flat = dot(left, left) == 0 || dot(right, right) == 0;
-    bends[i] = flat ? 0.0f : static_cast<float>(length(left - right));
+    // Triangles without an area, whose normal is zero, bend nothing; nor do those too large for one.
+    const double bend = dot(left, left) == 0 || dot(right, right) == 0 ? 0 : length(left - right);
+    bends[i] = bend <= 2.5 ? static_cast<float>(bend) : 0.0f;
   });
   return bends;
 }

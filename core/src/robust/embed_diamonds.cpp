@@ -18,8 +18,13 @@ bool isFree(const Diamond& q, const std::vector<std::uint8_t>& occupied) {
 class Writer {
  public:
   Writer(const Surface& surface, const FacesAround& facesAround, const DiamondLimits& limits,
-         std::vector<std::uint8_t>& occupied, std::vector<double>& positions)
-      : surface_(surface), facesAround_(facesAround), limits_(limits), occupied_(occupied), positions_(positions) {}
+         const ChangeMeter* change, std::vector<std::uint8_t>& occupied, std::vector<double>& positions)
+      : surface_(surface),
+        facesAround_(facesAround),
+        limits_(limits),
+        change_(change),
+        occupied_(occupied),
+        positions_(positions) {}
 
   // Moves the four vertices by the least total displacement that brings both diagonals to meet at the fine cell's
   // centre. False, with everything as it was, when a face turns or a vertex moves too far.
@@ -37,8 +42,7 @@ class Writer {
       put(positions_, vertex[k], old[k] + move);
       const double farthest = length(move);
       bad = bad || farthest > limits_.maxMove ||
-            (farthest > limits_.maxSlide &&
-             slideOf(move, vertexNormal(surface_, facesAround_, vertex[k], surface_.welded.positions)) > limits_.maxSlide);
+            (change_ != nullptr && slideOf(move, change_->normal(vertex[k])) > limits_.maxSlide);
     }
     for (int k = 0; k < 4 && !bad; ++k)
       for (const std::uint32_t f : facesAround_.of(vertex[k])) {
@@ -64,6 +68,7 @@ class Writer {
   const Surface& surface_;
   const FacesAround& facesAround_;
   const DiamondLimits& limits_;
+  const ChangeMeter* change_;
   std::vector<std::uint8_t>& occupied_;
   std::vector<double>& positions_;
 };
@@ -92,11 +97,11 @@ DiamondCandidates findCandidates(const Surface& surface, std::vector<Diamond> di
 
 DiamondEmbedding embedDiamonds(const Surface& surface, const FacesAround& facesAround,
                                DiamondCandidates candidates, const Constellation& constellation,
-                               const CodedPayload& payload, const DiamondLimits& limits, std::vector<std::uint8_t>& occupied,
-                               std::vector<double>& positions) {
+                               const CodedPayload& payload, const DiamondLimits& limits, const ChangeMeter* change,
+                               std::vector<std::uint8_t>& occupied, std::vector<double>& positions) {
   DiamondEmbedding out;
   const DeltaClass& shape = constellation.shape();
-  Writer writer(surface, facesAround, limits, occupied, positions);
+  Writer writer(surface, facesAround, limits, change, occupied, positions);
   auto& [diamonds, items] = candidates;
 
   // 1. The good fine cells: those whose meaning is what the payload says.

@@ -9,6 +9,7 @@
 #include "constellation.h"
 #include "diamond_queues.h"
 #include "diamonds.h"
+#include "distortion_budget.h"
 
 namespace quadmark::robust {
 
@@ -52,11 +53,13 @@ struct DiamondCandidates {
 /// turn, so that no coded bit is left with few copies. (Tried: the flattest diamonds first, as the paper does; the
 /// median good cell then gets 3 of 43 expected copies.)
 /// Faces must not turn away from what they are in `surface`.
+/// @param change     knows the normals that limits.maxSlide refers to; null where that is no limit.
 /// @param occupied   per welded vertex: 1 = not to be moved; receives the vertices of the cells.
 /// @param positions  changed in place.
 [[nodiscard]] DiamondEmbedding embedDiamonds(const Surface& surface, const FacesAround& facesAround,
                                              DiamondCandidates candidates, const Constellation& constellation,
                                              const CodedPayload& payload, const DiamondLimits& limits,
-                                             std::vector<std::uint8_t>& occupied, std::vector<double>& positions);
+                                             const ChangeMeter* change, std::vector<std::uint8_t>& occupied,
+                                             std::vector<double>& positions);
 
 }  // namespace quadmark::robust

@@ -64,8 +64,8 @@ double chooseRingStep(const Carriers& carriers, const std::vector<double>& posit
   return kRingSteps[std::size(kRingSteps) - 1];
 }
 
-std::vector<std::uint32_t> embedRings(const Surface& surface, const FacesAround& facesAround, const Carriers& carriers,
-                                      const RingCode& code, const CodedPayload& payload, const SymmetricTensor& tensor, const RingLimits& limits,
+std::vector<std::uint32_t> embedRings(const Carriers& carriers, const RingCode& code, const CodedPayload& payload,
+                                      const SymmetricTensor& tensor, const RingLimits& limits, const ChangeMeter& change,
                                       const std::vector<std::uint8_t>& dropped, std::vector<double>& positions) {
   const Sharing sharing = payload.hasBody() ? Sharing::split : Sharing::headOnly;
   std::vector<std::uint32_t> written;
@@ -86,11 +86,7 @@ std::vector<std::uint32_t> embedRings(const Surface& surface, const FacesAround&
     Vec3 to = pointAt(frame, p);
     to += toFan(to, frame.e3, from, positions, ring) * frame.e3;
     const Vec3 move = to - from;
-    const double distance = length(move);
-    if (distance > limits.maxMove) continue;
-    if (distance > limits.maxSlide &&
-        slideOf(move, vertexNormal(surface, facesAround, carriers.vertex[i], surface.welded.positions)) > limits.maxSlide)
-      continue;
+    if (length(move) > limits.maxMove || slideOf(move, change.normal(carriers.vertex[i])) > limits.maxSlide) continue;
     if (vetoed(from, to, positions, ring, limits)) continue;
     put(positions, carriers.vertex[i], to);
     written.push_back(i);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "carriers.h"
+#include "distortion_budget.h"
 #include "lattice.h"
 #include "ring_votes.h"
 
@@ -26,12 +27,12 @@ struct RingLimits {
                                     const SymmetricTensor& tensor, double diagonal);
 
 /// Moves carriers of `positions` in place; the lattice coordinates change, the third one follows the old surface.
+/// @param change   knows the normals that limits.maxSlide refers to.
 /// @param dropped  one flag per carrier: 1 = leave it alone.
 /// @return the carriers written, ascending.
-[[nodiscard]] std::vector<std::uint32_t> embedRings(const Surface& surface, const FacesAround& facesAround,
-                                                    const Carriers& carriers, const RingCode& code,
+[[nodiscard]] std::vector<std::uint32_t> embedRings(const Carriers& carriers, const RingCode& code,
                                                     const CodedPayload& payload, const SymmetricTensor& tensor,
-                                                    const RingLimits& limits,
+                                                    const RingLimits& limits, const ChangeMeter& change,
                                                     const std::vector<std::uint8_t>& dropped,
                                                     std::vector<double>& positions);
 

@@ -87,8 +87,10 @@ class Embedder {
                                                   creased_, occupied, positions_);
     forgetRings(surface_);
     if (!facesAround_) facesAround_ = std::make_unique<FacesAround>(surface_);
+    // Its normals are memory that the queues need, and only a limit on sliding asks for them this early.
+    if (!change_ && preset_.diamond.maxSlide < diagonal_) change_ = std::make_unique<ChangeMeter>(surface_, *facesAround_);
     cells_ = embedDiamonds(surface_, *facesAround_, std::move(candidates), constellation_, payload_, preset_.diamond,
-                           occupied, positions_);
+                           change_.get(), occupied, positions_);
     conceal(cells_.cells, jitter_, preset_.concealment * diagonal_, positions_);
   }
 
@@ -96,13 +98,13 @@ class Embedder {
   // may come from farther. Then A is written again.
   void writeCarriers() {
     const DistortionLimits limits = limitsOf(preset_, surface_.vertexCount(), diagonal_);
-    change_ = std::make_unique<ChangeMeter>(surface_, *facesAround_);
+    if (!change_) change_ = std::make_unique<ChangeMeter>(surface_, *facesAround_);
     dropped_.assign(carriers_.count(), 0);
     for (int round = 0;; ++round) {
       const SymmetricTensor tensor = edgeTensor(surface_, positions_);
       if (round == 0)
         preset_.ring.step = std::min(preset_.mostStep, chooseRingStep(carriers_, positions_, tensor, diagonal_));
-      written_ = embedRings(surface_, *facesAround_, carriers_, ringCode_, payload_, tensor, preset_.ring, dropped_, positions_);
+      written_ = embedRings(carriers_, ringCode_, payload_, tensor, preset_.ring, *change_, dropped_, positions_);
       if (round == kBudgetRounds || preset_.budget > 1) return;
       change_->measure(positions_);
       if (round == 0 && preset_.slackQuota > 1 && isWithin(limits, kSlackShare))
@@ -157,7 +159,7 @@ class Embedder {
   void giveUp(const DistortionLimits& limits) {
     std::vector<Expense> expenses;
     for (const std::uint32_t i : written_)
-      expenses.push_back({change_->turnOf(carriers_.vertex[i]), change_->squareOf(carriers_.vertex[i]), 2});
+      expenses.push_back({change_->turnOf(carriers_.vertex[i]), change_->squareOf(carriers_.vertex[i]), 2.0 * carriers_.bits[i]});
     for (const WrittenCell& cell : cells_.cells) {
       Expense e{0, 0, static_cast<double>(constellation_.shape().symbol)};
       const Diamond& q = cell.diamond;

@@ -9,7 +9,6 @@
 namespace quadmark::robust {
 namespace {
 
-constexpr double kLn2 = 0x1.62e42fefa39efp-1;
 
 // Log of the winnings of all bets at scale s: each is 1 + tanh(s |r| / 2) where the sign is right, 1 - that where wrong,
 // which is twice the logistic function of s r.

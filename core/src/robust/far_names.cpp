@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "quadmark/random.h"
 
@@ -47,9 +46,8 @@ struct Arrival {
 
 // Breadth-first search from all sources at once; a vertex passes on the first kNearest sources that reach it. Which of
 // several equally near ones those are depends on the order of vertices, how far they are does not.
-std::vector<std::array<Arrival, kNearest>> nearestSources(const Surface& surface, const Neighbours& neighbours,
-                                                          const std::vector<std::uint32_t>& sources) {
-  std::vector<std::array<Arrival, kNearest>> reached(surface.vertexCount());
+void reachFrom(const std::vector<std::uint32_t>& sources, const Neighbours& neighbours,
+               std::vector<std::array<Arrival, kNearest>>& reached) {
   struct Visit {
     std::uint32_t vertex, source;
   };
@@ -67,7 +65,6 @@ std::vector<std::array<Arrival, kNearest>> nearestSources(const Surface& surface
     }
     front.swap(next);
   }
-  return reached;
 }
 
 // Two vertices of a grid that quantization made one are three irregular vertices beside each other, and would name half of
@@ -83,7 +80,7 @@ std::vector<std::uint32_t> thoseAlone(const std::vector<std::uint32_t>& irregula
   };
   for (const std::uint32_t v : irregular) {
     const auto around = neighbours.of(v);
-    if (areRegularAround(v, v) &&
+    if (!around.empty() && areRegularAround(v, v) &&
         std::all_of(around.begin(), around.end(), [&](std::uint32_t n) { return areRegularAround(n, v); }))
       out.push_back(v);
   }
@@ -105,10 +102,15 @@ std::vector<std::uint64_t> farNames(const Surface& surface) {
     if (!isRegular(surface, v)) irregular.push_back(v);
   if (10 * std::uint64_t{irregular.size()} > count) return {};
   const Neighbours neighbours(surface);
+  std::vector<std::array<Arrival, kNearest>> reached(count);
   if (kRegularModel * irregular.size() < count)
-    if (std::vector<std::uint32_t> alone = thoseAlone(irregular, surface, neighbours); alone.size() >= kNearest)
-      irregular = std::move(alone);
-  const auto reached = nearestSources(surface, neighbours, irregular);
+    if (const std::vector<std::uint32_t> alone = thoseAlone(irregular, surface, neighbours); alone.size() >= kNearest)
+      reachFrom(alone, neighbours, reached);
+  // Components without a lone one: from what there is.
+  irregular.erase(std::remove_if(irregular.begin(), irregular.end(),
+                                 [&](std::uint32_t v) { return reached[v][0].source != kNoVertex; }),
+                  irregular.end());
+  reachFrom(irregular, neighbours, reached);
   std::vector<std::uint64_t> names(count);
   for (std::uint32_t v = 0; v < count; ++v) {
     std::uint64_t name = surface.cornerCounts[v];

@@ -13,7 +13,7 @@ namespace quadmark::robust {
 [[nodiscard]] bool isRegular(const Surface& surface, std::uint32_t vertex);
 
 /// Per vertex a hash of the numbers of edges to the three nearest irregular vertices: corners of a grid, extraordinary
-/// vertices of a subdivision surface. Such names outlast whatever moves vertices, and the merging of a few, but neither
+/// vertices of a subdivision surface; where these are few, only those that stand alone, if a component has any. Such names outlast whatever moves vertices, and the merging of a few, but neither
 /// crops nor simplification.
 /// Empty where more than a tenth of the vertices are irregular: there neighbourhoods do better.
 /// Independent of the order of vertices. Cost: linear, 0.3 microseconds per vertex.

@@ -22,6 +22,7 @@ std::uint32_t valueAt(std::span<const RingSlot> slots, const CodedPayload& paylo
   std::uint32_t value = 0;
   for (std::size_t t = 0; t < slots.size(); ++t) {
     const auto& coded = slots[t].stream(sharing) == Stream::head ? payload.head : payload.body;
+    if (coded.empty()) continue;
     const bool bit = (coded[slots[t].index % coded.size()] != 0) != slots[t].pad;
     value |= static_cast<std::uint32_t>(bit) << t;
   }

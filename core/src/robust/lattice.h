@@ -7,7 +7,6 @@
 #include <span>
 
 #include "quadmark/prf.h"
-#include "quadmark/random.h"
 #include "quadmark/robust/coded.h"
 
 namespace quadmark::robust {

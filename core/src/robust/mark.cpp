@@ -13,7 +13,6 @@
 namespace quadmark::robust {
 namespace {
 
-constexpr double kLn2 = 0x1.62e42fefa39efp-1;
 // IDs are 2^64 frames, short texts fewer than that, images and long texts 2^57 each.
 constexpr double kLogFrames = 66 * kLn2;
 // Of an expected payload: ratios of the head, labels, pixels.

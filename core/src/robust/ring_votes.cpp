@@ -6,6 +6,7 @@
 #include "ring_votes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "likelihood.h"
 #include "quadmark/exact_math.h"
@@ -15,11 +16,11 @@
 namespace quadmark::robust {
 namespace {
 
+constexpr double kFarthest = 1e6;   // ring radii: a vertex farther off its ring says nothing, and is no number to reckon with
 constexpr double kMostPerLabel = 6;  // bound of one label's log-likelihood ratio
 constexpr double kOwnSpread = 0.01;  // steps: rounding, and what the ring's later moves did
 constexpr double kRingGain = 1.2;    // the ring moves under noise, too
 constexpr double kTwoPi = 6.283185307179586, kTwoPiSquared = 19.739208802178716;
-constexpr double kLn2 = 0x1.62e42fefa39efp-1;
 
 double peak(double x, double spread) {
   const double z = x / spread;
@@ -50,6 +51,8 @@ RingVotes::RingVotes(const Carriers& carriers, const RingCode& code, const std::
   for (const auto& [label, c] : order) {
     RingFrame frame;
     if (!ringFrame(positions, carriers.ring(c), tensor, frame)) continue;
+    const RingCoordinates p = coordinatesIn(frame, at(positions, carriers.vertex[c]));
+    if (!(std::fabs(p.alpha) < kFarthest && std::fabs(p.beta) < kFarthest)) continue;
     const auto index = static_cast<std::uint32_t>(samples_.size());
     if (labels_.empty() || label != current) {
       current = label;
@@ -62,7 +65,6 @@ RingVotes::RingVotes(const Carriers& carriers, const RingCode& code, const std::
       }
       labels_.push_back(next);
     }
-    const RingCoordinates p = coordinatesIn(frame, at(positions, carriers.vertex[c]));
     samples_.push_back(
         {{static_cast<float>(p.alpha), static_cast<float>(p.beta)}, static_cast<float>(frame.radius), c});
     labels_.back().end = index + 1;

@@ -134,13 +134,6 @@ Vec3 areaVector(std::span<const std::uint32_t> face, const std::vector<double>& 
   return sum;
 }
 
-Vec3 vertexNormal(const Surface& surface, const FacesAround& facesAround, std::uint32_t vertex,
-                  const std::vector<double>& positions) {
-  Vec3 sum;
-  for (const std::uint32_t f : facesAround.of(vertex)) sum += areaVector(surface.face(f), positions);
-  return normalized(sum);
-}
-
 double slideOf(const Vec3& move, const Vec3& normal) {
   return length(move - dot(move, normal) * normal);
 }

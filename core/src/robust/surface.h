@@ -61,10 +61,6 @@ class FacesAround {
 /// Twice the area vector of a face (Newell's, for polygons).
 [[nodiscard]] Vec3 areaVector(std::span<const std::uint32_t> face, const std::vector<double>& positions);
 
-/// Unit normal of a vertex: of its faces, by area; zero where these have none.
-[[nodiscard]] Vec3 vertexNormal(const Surface& surface, const FacesAround& facesAround, std::uint32_t vertex,
-                                const std::vector<double>& positions);
-
 /// Length of the part of a vertex's displacement that lies along the surface before it: by so much its texture swims.
 [[nodiscard]] double slideOf(const Vec3& move, const Vec3& normal);
 

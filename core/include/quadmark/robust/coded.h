@@ -42,7 +42,7 @@ using SubKey = std::array<std::uint8_t, 16>;
 /// Independent sub-keys, one per purpose (HKDF of the master secret and the asset's salt, by the caller).
 struct RobustKeys {
   SubKey select{};        ///< layer A: which vertices are carriers
-  SubKey dither{};        ///< layer A: coded bit, pad and lattice offset of each label and coordinate
+  SubKey dither{};        ///< layer A: coded bits, pads and lattice offset of each label and coordinate
   SubKey constellation{}; ///< layer B: which fine cell means what
   SubKey assignment{};    ///< layer B: which coded bit each slot carries
   SubKey share{};         ///< which slots of both layers belong to the head when there is a body

@@ -52,7 +52,8 @@ struct RobustEmbedding {
 /// Writes both layers.
 /// @param mesh  must validate(); at least one face and a bounding box of positive size.
 /// Fails with badMesh (no extent), badOption (an empty head, a cap out of 0..1), aborted. Too little capacity is no
-/// failure here: the counts say how much there is. Deterministic. Cost: linear, some 3 microseconds per vertex.
+/// failure here: the counts say how much there is. Deterministic. Cost: linear, some 3 microseconds per
+/// vertex, 5 where little of the budget is used and cells are written twice.
 [[nodiscard]] Result<RobustEmbedding> embedRobust(const Mesh& mesh, const CodedPayload& payload, const RobustKeys& keys,
                                                   const EmbedOptions& options = {});
 

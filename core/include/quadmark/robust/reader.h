@@ -55,7 +55,7 @@ class MeshReader {
   /// the best one for the rest.
   [[nodiscard]] static std::vector<Hypothesis> hypotheses(const ReadLimits& limits);
 
-  /// Layer A's votes against an expected payload: one per distinct label and coordinate.
+  /// Layer A's votes against an expected payload: one per distinct label, coordinate and bit.
   [[nodiscard]] Agreement ringAgreement(const CodedPayload& expected, double sharpening = 0, bool mirrored = false);
   /// Layer B's votes: the sign of each coded bit's ratio where it is not 0, head and body together.
   [[nodiscard]] Agreement diamondAgreement(const CodedPayload& expected, const Hypothesis& hypothesis);
