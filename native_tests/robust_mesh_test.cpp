@@ -100,6 +100,20 @@ TEST(RobustMesh, DiamondsSurviveSimplification) {
   EXPECT_LT(bestErrorRate(both, payload, Layers::diamonds), 0.15);
 }
 
+// All that a simplifier with an error limit leaves of a part and a dense sphere are creases and what is raised.
+TEST(RobustMesh, RaisedCellsSurviveWhatLeavesLittle) {
+  const CodedPayload payload = payloadOf(14);
+  const auto optimized = [](const Mesh& mesh) {
+    return lab::quantize(lab::simplifyMeshopt(mesh, 0, nullptr, 1e-4), 14, lab::Grid::common);
+  };
+  for (const Mesh& mesh : {lab::machinedPart(12000, 2), lab::icosphere(6)}) {
+    const Mesh copy = marked(mesh, payload, {.strength = Strength::strong});
+    EXPECT_LT(bestErrorRate(optimized(copy), payload, Layers::diamonds), 0.2);
+    EXPECT_GT(bestErrorRate(optimized(mesh), payload, Layers::diamonds), 0.35) << "unmarked";
+  }
+  EXPECT_LT(bestErrorRate(optimized(marked(lab::icosphere(6), payload)), payload, Layers::diamonds), 0.25) << "standard";
+}
+
 TEST(RobustMesh, ABodyIsReadBesideItsHead) {
   const CodedPayload payload = payloadOf(4, 400);
   const Mesh copy = marked(lab::sculpture(16000), payload, {.strength = Strength::strong});

@@ -44,18 +44,7 @@ class Writer {
       bad = bad || farthest > limits_.maxMove ||
             (change_ != nullptr && slideOf(move, change_->normal(vertex[k])) > limits_.maxSlide);
     }
-    for (int k = 0; k < 4 && !bad; ++k)
-      for (const std::uint32_t f : facesAround_.of(vertex[k])) {
-        if (bad) break;
-        const auto face = surface_.face(f);
-        // Those at an earlier one of the four have been looked at.
-        bool seen = false;
-        for (const std::uint32_t v : face)
-          for (int j = 0; j < k; ++j) seen |= v == vertex[j];
-        if (seen) continue;
-        const Vec3 before = areaVector(face, surface_.welded.positions), after = areaVector(face, positions_);
-        bad = dot(before, after) < limits_.turnCosine * length(before) * length(after);
-      }
+    bad = bad || anyFaceTurns(surface_, facesAround_, q, limits_.turnCosine, positions_);
     if (bad) {
       for (int k = 0; k < 4; ++k) put(positions_, vertex[k], old[k]);
       return false;
@@ -74,6 +63,23 @@ class Writer {
 };
 
 }  // namespace
+
+bool anyFaceTurns(const Surface& surface, const FacesAround& facesAround, const Diamond& diamond, double turnCosine,
+                  const std::vector<double>& positions) {
+  const std::array<std::uint32_t, 4> vertex = {diamond.a, diamond.b, diamond.c, diamond.d};
+  for (int k = 0; k < 4; ++k)
+    for (const std::uint32_t f : facesAround.of(vertex[k])) {
+      const auto face = surface.face(f);
+      // Those at an earlier one of the four have been looked at.
+      bool seen = false;
+      for (const std::uint32_t v : face)
+        for (int j = 0; j < k; ++j) seen |= v == vertex[j];
+      if (seen) continue;
+      const Vec3 before = areaVector(face, surface.welded.positions), after = areaVector(face, positions);
+      if (dot(before, after) < turnCosine * length(before) * length(after)) return true;
+    }
+  return false;
+}
 
 DiamondCandidates findCandidates(const Surface& surface, std::vector<Diamond> diamonds, const DeltaClass& shape,
                                  const DiamondLimits& limits, const std::vector<std::uint8_t>& creased,

@@ -49,6 +49,10 @@ struct DiamondCandidates {
                                                const std::vector<std::uint8_t>& occupied,
                                                const std::vector<double>& positions);
 
+/// Whether a face at a vertex of the diamond has turned from what it is in `surface` by an angle of a smaller cosine.
+[[nodiscard]] bool anyFaceTurns(const Surface& surface, const FacesAround& facesAround, const Diamond& diamond,
+                                double turnCosine, const std::vector<double>& positions);
+
 /// Chooses and writes cells: each good cell has a queue of candidates by displacement, and all queues are served in
 /// turn, so that no coded bit is left with few copies. (Tried: the flattest diamonds first, as the paper does; the
 /// median good cell then gets 3 of 43 expected copies.)

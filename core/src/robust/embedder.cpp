@@ -9,6 +9,7 @@
 #include "parallel.h"
 #include "presets.h"
 #include "quadmark/random.h"
+#include "raise_cells.h"
 #include "sorting.h"
 
 namespace quadmark::robust {
@@ -91,11 +92,14 @@ class Embedder {
     if (!change_ && preset_.diamond.maxSlide < diagonal_) change_ = std::make_unique<ChangeMeter>(surface_, *facesAround_);
     cells_ = embedDiamonds(surface_, *facesAround_, std::move(candidates), constellation_, payload_, preset_.diamond,
                            change_.get(), occupied, positions_);
+    if (hasRoom_)
+      raiseCells(surface_, *facesAround_, cells_.cells, std::size_t{preset_.standing} * constellation_.groups(),
+                 preset_.diamond, change_.get(), positions_);
     conceal(cells_.cells, jitter_, preset_.concealment * diagonal_, positions_);
   }
 
   // Layer A. Where both together are more than the preset allows, the dearest parts go; where they are much less, cells
-  // may come from farther. Then A is written again.
+  // may come from farther and be raised. Then A is written again.
   void writeCarriers() {
     const DistortionLimits limits = limitsOf(preset_, surface_.vertexCount(), diagonal_);
     if (!change_) change_ = std::make_unique<ChangeMeter>(surface_, *facesAround_);
@@ -107,7 +111,7 @@ class Embedder {
       written_ = embedRings(carriers_, ringCode_, payload_, tensor, preset_.ring, *change_, dropped_, positions_);
       if (round == kBudgetRounds || preset_.budget > 1) return;
       change_->measure(positions_);
-      if (round == 0 && preset_.slackQuota > 1 && isWithin(limits, kSlackShare))
+      if (!hasRoom_ && preset_.standing > 0 && isWithin(limits, kSlackShare))
         writeMoreCells();
       else if (isWithin(limits, 1))
         return;
@@ -136,16 +140,20 @@ class Embedder {
                           creaseBend(typical, preset_.cellCrease, preset_.ofRoughness));
   }
 
+  // Limits of means as those of the sums that a ChangeMeter takes.
+  [[nodiscard]] double turnSum(const DistortionLimits& limits) const { return limits.turn * surface_.vertexCount(); }
+  [[nodiscard]] double squareSum(const DistortionLimits& limits) const {
+    return limits.surfaceRms * limits.surfaceRms * surface_.vertexCount();
+  }
   [[nodiscard]] bool isWithin(const DistortionLimits& limits, double share) const {
-    const double turns = share * limits.turn * surface_.vertexCount();
-    const double root = share * limits.surfaceRms, squares = root * root * surface_.vertexCount();
-    return change_->turns() <= turns && change_->squares() <= squares;
+    return change_->turns() <= share * turnSum(limits) && change_->squares() <= share * share * squareSum(limits);
   }
 
   // All anew, with more candidates from farther: smooth surfaces whose diamonds are all alike have few near most good
   // cells. (Nine spheres and machined parts, keys 1 to 3, of 378 readings exact: 252 without, 269 with twice and 273
   // with three times the quota, for 1 and 1.5 dB of sliding. Models that use more of their budget gain nothing by it.)
   void writeMoreCells() {
+    hasRoom_ = true;
     preset_.diamond.farQuota *= preset_.slackQuota;
     preset_.diamond.mostFar *= preset_.slackQuota;
     positions_ = original_;
@@ -166,9 +174,8 @@ class Embedder {
       for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) e.turn += change_->turnOf(v), e.square += change_->squareOf(v);
       expenses.push_back(e);
     }
-    const double turns = limits.turn * surface_.vertexCount();
-    const double squares = limits.surfaceRms * limits.surfaceRms * surface_.vertexCount();
-    const std::vector<std::uint8_t> dropped = expensesToDrop(expenses, kBudgetShare * turns, kBudgetShare * squares);
+    const std::vector<std::uint8_t> dropped =
+        expensesToDrop(expenses, kBudgetShare * turnSum(limits), kBudgetShare * squareSum(limits));
     for (std::size_t i = 0; i < written_.size(); ++i) {
       dropped_[written_[i]] |= dropped[i];
       put(positions_, carriers_.vertex[written_[i]], at(original_, carriers_.vertex[written_[i]]));
@@ -262,6 +269,7 @@ class Embedder {
   std::unique_ptr<FacesAround> facesAround_;
   DiamondEmbedding cells_;
   std::unique_ptr<ChangeMeter> change_;
+  bool hasRoom_ = preset_.budget > 1;   // whether there are no limits, or the mark is far from them
   std::vector<std::uint8_t> dropped_;   // per carrier
   std::vector<std::uint32_t> written_;  // carriers
 };

@@ -36,11 +36,12 @@ Preset presetOf(Strength strength) {
   struct Row {
     double step, ringCrease, cellCrease, ofRoughness, ringTurn, gap, cellTurn, farQuota, mostFar, slackQuota, maxError,
         concealment, budget;
+    std::uint32_t standing;
   };
   static constexpr Row kRows[] = {
-      {0.5, 12, 35, 2.5, 5, 0.012, 4, 0.03, 6, 1, 2e-3, 1e-5, 0.5},      // invisible
-      {0.7, 25, 35, 5, 10, 0.05, 10, 0.075, 10, 2, 6e-3, 1e-5, 1},     // standard
-      {0.9, 35, 60, 5, 20, 0.1, 20, 0.135, 100, 1, 1.5e-2, 0, 1e9},  // strong
+      {0.5, 12, 35, 2.5, 5, 0.012, 4, 0.03, 6, 1, 2e-3, 1e-5, 0.5, 0},    // invisible
+      {0.7, 25, 35, 5, 10, 0.05, 10, 0.075, 10, 2, 6e-3, 1e-5, 1, 8},     // standard
+      {0.9, 35, 60, 5, 20, 0.1, 20, 0.135, 100, 1, 1.5e-2, 0, 1e9, 8},  // strong
   };
   const Row& row = kRows[static_cast<int>(strength)];
   Preset out;
@@ -57,6 +58,7 @@ Preset presetOf(Strength strength) {
   out.maxError = row.maxError;
   out.concealment = row.concealment;
   out.budget = row.budget;
+  out.standing = row.standing;
   return out;
 }
 

@@ -10,33 +10,22 @@
 namespace quadmark::robust {
 namespace {
 
-// How far a vertex's faces are, root mean square by area, from the neighbour that it could collapse to most cheaply:
-// what edge-collapse simplifiers (Garland and Heckbert 1997) sort by. 0 where there is no closed fan.
+// How far a vertex's faces are, root mean square, from the neighbour that it could collapse to most cheaply: what
+// simplifiers sort by. 0 where there is no closed fan.
 std::vector<float> collapseCosts(const Surface& surface, const std::vector<double>& positions) {
   std::vector<float> out(surface.vertexCount(), 0.0f);
   forEachInParts(surface.vertexCount(), [&](std::size_t v) {
     const auto ring = surface.ring(static_cast<std::uint32_t>(v));
     if (ring.empty()) return;
     const Vec3 p = at(positions, v);
-    Vec3 normal[kMaxRing];
-    double area[kMaxRing], total = 0;
+    CollapseFan fan;
     const std::size_t n = ring.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      normal[k] = cross(at(positions, ring[k]) - p, at(positions, ring[(k + 1) % n]) - p);
-      area[k] = length(normal[k]);
-      total += area[k];
-    }
+    for (std::size_t k = 0; k < n; ++k)
+      fan.add(cross(at(positions, ring[k]) - p, at(positions, ring[(k + 1) % n]) - p));
+    if (!fan.hasArea()) return;
     double best = 1e300;
-    for (std::size_t u = 0; u < n; ++u) {
-      const Vec3 d = at(positions, ring[u]) - p;
-      double sum = 0;
-      for (std::size_t k = 0; k < n; ++k) {
-        const double h = dot(normal[k], d);
-        if (area[k] > 0) sum += h * h / area[k];
-      }
-      best = std::min(best, sum);
-    }
-    if (total > 0) out[v] = static_cast<float>(std::sqrt(best / total));
+    for (const std::uint32_t u : ring) best = std::min(best, fan.cost(at(positions, u) - p));
+    out[v] = static_cast<float>(std::sqrt(best));
   });
   return out;
 }
