@@ -93,11 +93,13 @@ std::vector<RingVotes::Densities> RingVotes::densities(const RingView& view) con
   out.reserve(2 * samples_.size());
   for (const Label& label : labels_) {
     if (label.bits > 1) continue;
-    for (std::uint32_t i = label.begin; i < label.end; ++i)
+    for (std::uint32_t i = label.begin; i < label.end; ++i) {
+      const double ofSample = spread(samples_[i], view);
       for (int k = 0; k < 2; ++k) {
         const double vote = latticeVote(samples_[i].coordinate[k], view.step, label.offset[k]);
-        out.push_back(densitiesAt(0.25 * (1 - vote), spread(samples_[i], view)));
+        out.push_back(densitiesAt(0.25 * (1 - vote), ofSample));
       }
+    }
   }
   return out;
 }
