@@ -56,7 +56,7 @@ TEST(RobustRaise, MakesCellsOutlastASimplifierAsTheyAre) {
   EXPECT_LT(survivors(mesh, surface, cells, original), 10u);
 
   std::vector<double> positions = original;
-  raiseCells(surface, facesAround, cells, 70, {}, nullptr, positions);
+  raiseCells(surface, facesAround, cells, 70, {}, 0, nullptr, positions);
   std::size_t raised = 0;
   for (const WrittenCell& cell : cells) {
     DiamondShape before, after;
@@ -72,27 +72,55 @@ TEST(RobustRaise, MakesCellsOutlastASimplifierAsTheyAre) {
   EXPECT_GT(survivors(mesh, surface, cells, positions), 35u) << "half of them, as faces around change, too";
 
   std::vector<double> again = positions;
-  raiseCells(surface, facesAround, cells, 70, {}, nullptr, again);
+  raiseCells(surface, facesAround, cells, 70, {}, 0, nullptr, again);
   EXPECT_EQ(again, positions) << "those that stand count";
 }
 
 TEST(RobustRaise, KeepsPlanesAndLimits) {
   const Mesh mesh = lab::icosphere(6);
-  Mesh plane = lab::bumpyGrid(60, 60, 1);
-  for (std::size_t v = 0; v < plane.vertexCount(); ++v) plane.positions[3 * v + 2] = 0;
-  const auto unmoved = [](const Mesh& of, const DiamondLimits& limits) {
+  Mesh plane = lab::bumpyGrid(60, 60, 1);  // slanted, so that no coordinate is exact
+  for (std::size_t v = 0; v < plane.vertexCount(); ++v)
+    plane.positions[3 * v + 2] = 0.3 * plane.positions[3 * v] + 0.7 * plane.positions[3 * v + 1];
+  roundToPrecision(plane);
+  const Mesh coarse = lab::quantize(plane, 12, lab::Grid::common);
+  const auto unmoved = [](const Mesh& of, const DiamondLimits& limits, double grain = 0) {
     const Surface surface = makeSurface(of);
     const FacesAround facesAround(surface);
     const ChangeMeter change(surface, facesAround);
     std::vector<double> positions = surface.welded.positions;
-    raiseCells(surface, facesAround, scatteredCells(surface, 20), 20, limits, &change, positions);
+    raiseCells(surface, facesAround, scatteredCells(surface, 20), 20, limits, grain, &change, positions);
     return positions == surface.welded.positions;
   };
   EXPECT_FALSE(unmoved(mesh, {}));
   EXPECT_TRUE(unmoved(plane, {}));
+  EXPECT_FALSE(unmoved(coarse, {})) << "steps of a grid look like a rough surface";
+  EXPECT_TRUE(unmoved(coarse, {}, largestExtent(coarse.positions) / 4095));
   EXPECT_TRUE(unmoved(mesh, {.maxMove = 1e-5}));
   EXPECT_TRUE(unmoved(mesh, {.turnCosine = 0.999999})) << "faces would turn by more than .08 degrees";
   EXPECT_TRUE(unmoved(mesh, {.maxSlide = 1e-7}));
+}
+
+// Every plane of a part, also beside fillets and bores whose cells are raised.
+TEST(RobustRaise, PlanesOfPartsStayPlanes) {
+  const Mesh mesh = lab::machinedPart(12000, 2);
+  const Surface surface = makeSurface(mesh);
+  const FacesAround facesAround(surface);
+  const ChangeMeter change(surface, facesAround);
+  std::vector<double> positions = surface.welded.positions;
+  raiseCells(surface, facesAround, scatteredCells(surface, 400), 400, {}, 0, &change, positions);
+  std::size_t raised = 0, flat = 0;
+  for (std::uint32_t v = 0; v < surface.vertexCount(); ++v) {
+    const double height = length(at(positions, v) - at(surface.welded.positions, v));
+    raised += height > 0;
+    double bend = 0;
+    for (const std::uint32_t f : facesAround.of(v))
+      bend = std::max(bend, length(normalized(areaVector(surface.face(f), surface.welded.positions)) - change.normal(v)));
+    if (bend > 1e-3) continue;
+    ++flat;
+    EXPECT_EQ(height, 0) << "vertex " << v;
+  }
+  EXPECT_GT(raised, 40u);
+  EXPECT_GT(flat, 5000u);
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ class Embedder {
                            change_.get(), occupied, positions_);
     if (hasRoom_)
       raiseCells(surface_, *facesAround_, cells_.cells, std::size_t{preset_.standing} * constellation_.groups(),
-                 preset_.diamond, change_.get(), positions_);
+                 preset_.diamond, coarsestStep(), change_.get(), positions_);
     conceal(cells_.cells, jitter_, preset_.concealment * diagonal_, positions_);
   }
 
@@ -111,7 +111,7 @@ class Embedder {
       written_ = embedRings(carriers_, ringCode_, payload_, tensor, preset_.ring, *change_, dropped_, positions_);
       if (round == kBudgetRounds || preset_.budget > 1) return;
       change_->measure(positions_);
-      if (!hasRoom_ && preset_.standing > 0 && isWithin(limits, kSlackShare))
+      if (round == 0 && preset_.standing > 0 && isWithin(limits, kSlackShare))
         writeMoreCells();
       else if (isWithin(limits, 1))
         return;
@@ -138,6 +138,13 @@ class Embedder {
     preset_.ring.creaseCosine = 1 - 0.5 * ofRing * ofRing;
     return creaseVertices(surface_.vertexCount(), diamonds_, bends,
                           creaseBend(typical, preset_.cellCrease, preset_.ofRoughness));
+  }
+
+  // Of the grids that coordinates lie on; 0 where there is none.
+  [[nodiscard]] double coarsestStep() const {
+    double out = 0;
+    for (const CoordinateGrid& grid : mesh_.grids) out = std::max(out, grid.step());
+    return out;
   }
 
   // Limits of means as those of the sums that a ChangeMeter takes.

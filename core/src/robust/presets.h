@@ -19,7 +19,7 @@ struct Preset {
   double concealment;             ///< jitter of cells that were not flat, of the diagonal
   double budget;                  ///< of the mean distortion that `standard` may cause
   double slackQuota;              ///< factor on the quota of far candidates where little of the budget is used
-  std::uint32_t standing;         ///< cells to raise until so many per good cell stand, then or if there is no budget; 0 = none
+  std::uint32_t standing;         ///< times good cells: raise cells until so many stand, at such slack or without a budget; 0 = none
 };
 
 [[nodiscard]] Preset presetOf(Strength strength);

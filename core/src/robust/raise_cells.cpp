@@ -11,17 +11,19 @@ namespace {
 // What web builds let a simplifier do, of the extent, and half as much again: faces around a cell change, too, and errors
 // add up. (Of 1.3, 1.5, 1.8 and 2.2e-4: more keeps single cells better, but fewer can be raised so far.)
 constexpr double kCost = 1.5e-4;
-constexpr double kStep = 0.35 * kCost, kSteps = 8;  // heights that are tried, of the extent
-constexpr double kTurnCosine = 0.98481;             // 10 degrees
-constexpr double kPlane = 0.00175;                  // normals closer than this, 0.1 degrees, are those of one plane
+constexpr double kStep = 0.35 * kCost;   // between the heights that are tried, of the extent
+constexpr int kSteps = 8;                // heights, on either side
+constexpr double kTurnCosine = 0.98481;  // 10 degrees
+constexpr double kFlat = 0.00175;        // slope of an edge out of its plane, 0.1 degrees
 
 class Raiser {
  public:
-  Raiser(const Surface& surface, const FacesAround& facesAround, const DiamondLimits& limits, const ChangeMeter* change,
-         std::vector<double>& positions)
+  Raiser(const Surface& surface, const FacesAround& facesAround, const DiamondLimits& limits, double grain,
+         const ChangeMeter* change, std::vector<double>& positions)
       : surface_(surface),
         facesAround_(facesAround),
         limits_(limits),
+        grain_(grain),
         change_(change),
         extent_(largestExtent(positions)),
         positions_(positions) {}
@@ -34,15 +36,21 @@ class Raiser {
 
   // By the least of the heights that will do; false, with everything as it was, where none does.
   bool raise(const Diamond& q) {
-    if (isInPlane(q)) return false;
     const std::uint32_t vertex[4] = {q.a, q.b, q.c, q.d};
     Vec3 old[4];
-    for (int k = 0; k < 4; ++k) old[k] = at(positions_, vertex[k]);
+    for (int k = 0; k < 4; ++k) {
+      if (facesAround_.of(vertex[k]).size() > kMaxRing || isFlat(vertex[k])) return false;
+      old[k] = at(positions_, vertex[k]);
+    }
     const Vec3 normal = normalized(cross(old[2] - old[0], old[3] - old[1]));
+    bool isOpen[2] = {true, true};  // sides: what is too high stays so farther up
     for (int step = 1; step <= kSteps; ++step)
-      for (const double side : {1.0, -1.0}) {
-        for (int k = 0; k < 4; ++k) put(positions_, vertex[k], old[k] + (side * step * kStep * extent_) * normal);
-        if (isAllowed(q) && stands(q)) return true;
+      for (int side = 0; side < 2; ++side) {
+        if (!isOpen[side]) continue;
+        const Vec3 move = ((side == 0 ? step : -step) * kStep * extent_) * normal;
+        for (int k = 0; k < 4; ++k) put(positions_, vertex[k], old[k] + move);
+        isOpen[side] = isAllowed(q);
+        if (isOpen[side] && stands(q)) return true;
       }
     for (int k = 0; k < 4; ++k) put(positions_, vertex[k], old[k]);
     return false;
@@ -63,14 +71,19 @@ class Raiser {
     return true;
   }
 
-  // Of the surface before embedding.
-  [[nodiscard]] bool isInPlane(const Diamond& q) const {
+  // Whether the faces around a vertex lay in one plane before embedding, as far as coordinates can tell.
+  [[nodiscard]] bool isFlat(std::uint32_t v) const {
     const std::vector<double>& original = surface_.welded.positions;
-    const auto normalOf = [&](std::uint32_t f) { return normalized(areaVector(surface_.face(f), original)); };
-    const Vec3 own = normalOf(facesAround_.of(q.b)[0]);
-    for (const std::uint32_t v : {q.a, q.b, q.c, q.d})
-      for (const std::uint32_t f : facesAround_.of(v))
-        if (length(normalOf(f) - own) > kPlane) return false;
+    const Vec3 p = at(original, v);
+    Vec3 normal;
+    for (const std::uint32_t f : facesAround_.of(v)) normal += areaVector(surface_.face(f), original);
+    normal = normalized(normal);
+    for (const std::uint32_t f : facesAround_.of(v))
+      for (const std::uint32_t u : surface_.face(f)) {
+        const Vec3 way = at(original, u) - p;
+        const double height = dot(way, normal), most = kFlat * length(way) + grain_;
+        if (height > most || -height > most) return false;
+      }
     return true;
   }
 
@@ -86,6 +99,7 @@ class Raiser {
   const Surface& surface_;
   const FacesAround& facesAround_;
   const DiamondLimits& limits_;
+  const double grain_;
   const ChangeMeter* change_;
   const double extent_;
   std::vector<double>& positions_;
@@ -94,9 +108,9 @@ class Raiser {
 }  // namespace
 
 void raiseCells(const Surface& surface, const FacesAround& facesAround, const std::vector<WrittenCell>& cells,
-                std::size_t wanted, const DiamondLimits& limits, const ChangeMeter* change,
+                std::size_t wanted, const DiamondLimits& limits, double grain, const ChangeMeter* change,
                 std::vector<double>& positions) {
-  Raiser raiser(surface, facesAround, limits, change, positions);
+  Raiser raiser(surface, facesAround, limits, grain, change, positions);
   std::size_t standing = 0;
   std::vector<std::uint32_t> low;
   for (std::uint32_t i = 0; i < cells.size() && standing < wanted; ++i)
