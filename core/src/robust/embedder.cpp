@@ -92,7 +92,8 @@ class Embedder {
     if (!change_ && preset_.diamond.maxSlide < diagonal_) change_ = std::make_unique<ChangeMeter>(surface_, *facesAround_);
     cells_ = embedDiamonds(surface_, *facesAround_, std::move(candidates), constellation_, payload_, preset_.diamond,
                            change_.get(), occupied, positions_);
-    if (hasRoom_)
+    // Bodies have no places to spare for it (images in part:12000:2, 110 readings: one won, seven lost).
+    if (hasRoom_ && !payload_.hasBody())
       raiseCells(surface_, *facesAround_, cells_.cells, std::size_t{preset_.standing} * constellation_.groups(),
                  preset_.diamond, coarsestStep(), change_.get(), positions_);
     conceal(cells_.cells, jitter_, preset_.concealment * diagonal_, positions_);
