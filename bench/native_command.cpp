@@ -2,7 +2,7 @@
 // quadmark_native: the core's calls on files, for the parity tests and for profiling. Not a product: the command line for
 // users is the npm package's.
 //
-//   quadmark_native embed IN OUT KEY (image PNG | id HEX | text TEXT) [URI=FILE ...]   marks; writes OUT and OUT.<n> per changed buffer
+//   quadmark_native embed IN OUT KEY (image PNG | id HEX | text TEXT) [--strength S] [URI=FILE ...]   marks; writes OUT and OUT.<n> per changed buffer
 //   quadmark_native extract IN KEY [URI=FILE ...]                          reads; prints the report and the bits
 //   quadmark_native inspect IN [URI=FILE ...]
 //   quadmark_native attack IN OUT KIND AMOUNT VARIANT ITERATIONS SEED      writes PLY, or GLB when OUT ends in .glb
@@ -73,15 +73,22 @@ Result<Key> readKey(const std::string& path) {
 }
 
 Result<std::string> runEmbed(const std::vector<std::string>& arguments) {
-  if (arguments.size() < 6) return Error{ErrorCode::badOption, "embed: IN OUT KEY (image PNG | id HEX | text TEXT) [URI=FILE ...]"};
+  if (arguments.size() < 6) return Error{ErrorCode::badOption, "embed: IN OUT KEY (image PNG | id HEX | text TEXT) [--strength S] [URI=FILE ...]"};
   auto file = readFile(arguments[1]);
   if (!file) return file.error();
   auto key = readKey(arguments[3]);
   if (!key) return key.error();
-  auto resources = readResources(arguments, 6);
-  if (!resources) return resources.error();
   EmbedRequest request;
   request.key = std::move(*key);
+  std::size_t next = 6;
+  if (arguments.size() > next + 1 && arguments[next] == "--strength") {
+    auto strength = robust::strengthFrom(arguments[next + 1]);
+    if (!strength) return strength.error();
+    request.robust.strength = *strength;
+    next += 2;
+  }
+  auto resources = readResources(arguments, next);
+  if (!resources) return resources.error();
   if (arguments[4] == "image") {
     auto png = readFile(arguments[5]);
     if (!png) return png.error();

@@ -40,7 +40,7 @@ async function runNative(...args) {
  * Marks, damages and reads `path` natively and in wasm, comparing everything.
  * @param payload  { id } or { text } instead of a picture: for keys of scheme robust
  */
-async function compare(t, path, { size = 24, L = 2, scheme = 'paper', payload, attacks = [{ kind: 'crop', amount: 0.5 }] } = {}) {
+async function compare(t, path, { size = 24, L = 2, scheme = 'paper', payload, strength, attacks = [{ kind: 'crop', amount: 0.5 }] } = {}) {
   const folder = temporaryFolder(t);
   const name = basename(path);
   const image = logo(size);
@@ -54,8 +54,9 @@ async function compare(t, path, { size = 24, L = 2, scheme = 'paper', payload, a
   assert.deepEqual(await inspect(model, { resources }), await runNative('inspect', path, ...nativeResources), `${name}: inspect`);
   const out = join(folder, name);
   const nativeReport = await runNative('embed', path, out, join(folder, 'key.json'),
-    ...(payload ? Object.entries(payload)[0] : ['image', join(folder, 'logo.png')]), ...nativeResources);
-  const marked = await embed(model, { key, ...mark, resources });
+    ...(payload ? Object.entries(payload)[0] : ['image', join(folder, 'logo.png')]),
+    ...(strength ? ['--strength', strength] : []), ...nativeResources);
+  const marked = await embed(model, { key, ...mark, resources, ...(strength ? { options: { strength } } : {}) });
   equal(marked.bytes, readFileSync(out), `${name}: marked file`);
   const changed = Object.keys(marked.resources).sort();
   changed.forEach((uri, i) => equal(marked.resources[uri], readFileSync(`${out}.${i}`), `${name}: ${uri}`));
@@ -139,10 +140,11 @@ test('marks of scheme robust are written, damaged in every way and read alike', 
 
 test('a machined part and a regular mesh are marked alike by scheme robust', { skip }, async (t) => {
   const folder = temporaryFolder(t);
-  for (const [name, vertices] of [['part', 8000], ['icosphere', 6000]]) {
+  const models = [['part', 8000], ['icosphere', 6000], ['part', 9000, 'strong'], ['icosphere', 40962, 'strong']];
+  for (const [name, vertices, strength] of models) {
     const path = join(folder, `${name}.ply`);
     writeFileSync(path, (await generate({ name, vertices })).bytes);
-    await compare(t, path, { scheme: 'robust', payload: { id: '1' }, attacks: ATTACKS.slice(0, 3) });
+    await compare(t, path, { scheme: 'robust', payload: { id: '1' }, strength, attacks: ATTACKS.slice(0, 3) });
   }
 });
 
