@@ -256,10 +256,11 @@ TEST(RobustMesh, CapsDisplacement) {
   EXPECT_GT(still.carriers, 0u);
 }
 
-// Mean turn of vertex normals as reports measure it; distance of the surfaces at their vertices. The part has room left, which
+// Mean turn of vertex normals as reports measure it; distance of the surfaces at their vertices. Parts have room left, which
 // raised cells use up.
 TEST(RobustMesh, KeepsWithinTheBudgetOfItsStrength) {
-  for (const Mesh& mesh : {lab::sculpture(7000), lab::bumpyGrid(80, 80, 1), lab::quadSphere(5), lab::machinedPart(8000)}) {
+  for (const Mesh& mesh : {lab::sculpture(7000), lab::bumpyGrid(80, 80, 1), lab::quadSphere(5), lab::machinedPart(5000),
+                           lab::machinedPart(8000)}) {
     const double allowed[] = {0.25, 0.5};
     for (const Strength strength : {Strength::invisible, Strength::standard}) {
       const Mesh after = marked(mesh, payloadOf(1), {.strength = strength});

@@ -50,13 +50,14 @@ TEST(RobustRaise, MakesCellsOutlastASimplifierAsTheyAre) {
   const Mesh mesh = lab::icosphere(6);
   const Surface surface = makeSurface(mesh);
   const FacesAround facesAround(surface);
+  const ChangeMeter change(surface, facesAround);
   const std::vector<double>& original = surface.welded.positions;
   const std::vector<WrittenCell> cells = scatteredCells(surface, 100);
   ASSERT_EQ(cells.size(), 100u);
   EXPECT_LT(survivors(mesh, surface, cells, original), 10u);
 
   std::vector<double> positions = original;
-  raiseCells(surface, facesAround, cells, 70, {}, 0, nullptr, positions);
+  raiseCells(surface, facesAround, cells, 70, {}, 0, change, positions);
   std::size_t raised = 0;
   for (const WrittenCell& cell : cells) {
     DiamondShape before, after;
@@ -72,7 +73,7 @@ TEST(RobustRaise, MakesCellsOutlastASimplifierAsTheyAre) {
   EXPECT_GT(survivors(mesh, surface, cells, positions), 35u) << "half of them, as faces around change, too";
 
   std::vector<double> again = positions;
-  raiseCells(surface, facesAround, cells, 70, {}, 0, nullptr, again);
+  raiseCells(surface, facesAround, cells, 70, {}, 0, change, again);
   EXPECT_EQ(again, positions) << "those that stand count";
 }
 
@@ -88,7 +89,7 @@ TEST(RobustRaise, KeepsPlanesAndLimits) {
     const FacesAround facesAround(surface);
     const ChangeMeter change(surface, facesAround);
     std::vector<double> positions = surface.welded.positions;
-    raiseCells(surface, facesAround, scatteredCells(surface, 20), 20, limits, grain, &change, positions);
+    raiseCells(surface, facesAround, scatteredCells(surface, 20), 20, limits, grain, change, positions);
     return positions == surface.welded.positions;
   };
   EXPECT_FALSE(unmoved(mesh, {}));
@@ -107,7 +108,7 @@ TEST(RobustRaise, PlanesOfPartsStayPlanes) {
   const FacesAround facesAround(surface);
   const ChangeMeter change(surface, facesAround);
   std::vector<double> positions = surface.welded.positions;
-  raiseCells(surface, facesAround, scatteredCells(surface, 400), 400, {}, 0, &change, positions);
+  raiseCells(surface, facesAround, scatteredCells(surface, 400), 400, {}, 0, change, positions);
   std::size_t raised = 0, flat = 0;
   for (std::uint32_t v = 0; v < surface.vertexCount(); ++v) {
     const double height = length(at(positions, v) - at(surface.welded.positions, v));

@@ -92,10 +92,11 @@ class Embedder {
     if (!change_ && preset_.diamond.maxSlide < diagonal_) change_ = std::make_unique<ChangeMeter>(surface_, *facesAround_);
     cells_ = embedDiamonds(surface_, *facesAround_, std::move(candidates), constellation_, payload_, preset_.diamond,
                            change_.get(), occupied, positions_);
+    if (!change_) change_ = std::make_unique<ChangeMeter>(surface_, *facesAround_);
     // Bodies have no places to spare for it (images in part:12000:2, 110 readings: one won, seven lost).
     if (hasRoom_ && !payload_.hasBody())
       raiseCells(surface_, *facesAround_, cells_.cells, std::size_t{preset_.standing} * constellation_.groups(),
-                 preset_.diamond, coarsestStep(), change_.get(), positions_);
+                 preset_.diamond, coarsestStep(), *change_, positions_);
     conceal(cells_.cells, jitter_, preset_.concealment * diagonal_, positions_);
   }
 
@@ -103,7 +104,6 @@ class Embedder {
   // may come from farther and be raised. Then A is written again.
   void writeCarriers() {
     const DistortionLimits limits = limitsOf(preset_, surface_.vertexCount(), diagonal_);
-    if (!change_) change_ = std::make_unique<ChangeMeter>(surface_, *facesAround_);
     dropped_.assign(carriers_.count(), 0);
     for (int round = 0;; ++round) {
       const SymmetricTensor tensor = edgeTensor(surface_, positions_);
@@ -112,7 +112,7 @@ class Embedder {
       written_ = embedRings(carriers_, ringCode_, payload_, tensor, preset_.ring, *change_, dropped_, positions_);
       if (round == kBudgetRounds || preset_.budget > 1) return;
       change_->measure(positions_);
-      if (round == 0 && preset_.standing > 0 && isWithin(limits, kSlackShare))
+      if (round == 0 && preset_.slackQuota > 1 && isWithin(limits, kSlackShare))
         writeMoreCells();
       else if (isWithin(limits, 1))
         return;

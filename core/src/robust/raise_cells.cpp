@@ -19,7 +19,7 @@ constexpr double kFlat = 0.00175;        // slope of an edge out of its plane, 0
 class Raiser {
  public:
   Raiser(const Surface& surface, const FacesAround& facesAround, const DiamondLimits& limits, double grain,
-         const ChangeMeter* change, std::vector<double>& positions)
+         const ChangeMeter& change, std::vector<double>& positions)
       : surface_(surface),
         facesAround_(facesAround),
         limits_(limits),
@@ -74,10 +74,7 @@ class Raiser {
   // Whether the faces around a vertex lay in one plane before embedding, as far as coordinates can tell.
   [[nodiscard]] bool isFlat(std::uint32_t v) const {
     const std::vector<double>& original = surface_.welded.positions;
-    const Vec3 p = at(original, v);
-    Vec3 normal;
-    for (const std::uint32_t f : facesAround_.of(v)) normal += areaVector(surface_.face(f), original);
-    normal = normalized(normal);
+    const Vec3 p = at(original, v), &normal = change_.normal(v);
     for (const std::uint32_t f : facesAround_.of(v))
       for (const std::uint32_t u : surface_.face(f)) {
         const Vec3 way = at(original, u) - p;
@@ -91,7 +88,7 @@ class Raiser {
     for (const std::uint32_t v : {q.a, q.b, q.c, q.d}) {
       const Vec3 move = at(positions_, v) - at(surface_.welded.positions, v);
       if (length(move) > limits_.maxMove) return false;
-      if (change_ != nullptr && slideOf(move, change_->normal(v)) > limits_.maxSlide) return false;
+      if (slideOf(move, change_.normal(v)) > limits_.maxSlide) return false;
     }
     return !anyFaceTurns(surface_, facesAround_, q, std::max(kTurnCosine, limits_.turnCosine), positions_);
   }
@@ -100,7 +97,7 @@ class Raiser {
   const FacesAround& facesAround_;
   const DiamondLimits& limits_;
   const double grain_;
-  const ChangeMeter* change_;
+  const ChangeMeter& change_;
   const double extent_;
   std::vector<double>& positions_;
 };
@@ -108,7 +105,7 @@ class Raiser {
 }  // namespace
 
 void raiseCells(const Surface& surface, const FacesAround& facesAround, const std::vector<WrittenCell>& cells,
-                std::size_t wanted, const DiamondLimits& limits, double grain, const ChangeMeter* change,
+                std::size_t wanted, const DiamondLimits& limits, double grain, const ChangeMeter& change,
                 std::vector<double>& positions) {
   Raiser raiser(surface, facesAround, limits, grain, change, positions);
   std::size_t standing = 0;

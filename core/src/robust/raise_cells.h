@@ -20,11 +20,11 @@ namespace quadmark::robust {
 /// vertices of more than kMaxRing faces.
 /// @param cells      in the order in which they are to be raised.
 /// @param grain      how far rounding may have taken vertices out of a plane, beyond float32's own: file units.
-/// @param change     as for embedDiamonds().
+/// @param change     knows the normals before embedding.
 /// @param positions  changed in place.
 /// Cost: some 2 microseconds per cell that is looked at, ten times that for one that is raised or cannot be.
 void raiseCells(const Surface& surface, const FacesAround& facesAround, const std::vector<WrittenCell>& cells,
-                std::size_t wanted, const DiamondLimits& limits, double grain, const ChangeMeter* change,
+                std::size_t wanted, const DiamondLimits& limits, double grain, const ChangeMeter& change,
                 std::vector<double>& positions);
 
 }  // namespace quadmark::robust
