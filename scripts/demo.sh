@@ -37,7 +37,7 @@ scripts/setup.sh --no-browser
 . build/deps/env.sh
 quietly "configuring the wasm build" cmake --preset wasm
 quietly "building the wasm modules (minutes, the first time)" \
-  cmake --build --preset wasm --parallel "$(nproc)" --target quadmark_wasm --target quadmark_lab_wasm
+  cmake --build --preset wasm --parallel "$(nproc)" --target quadmark_package
 node scripts/demo.mjs
 quietly "building the page" npm run build --workspace web
 if [ $serve = yes ]; then

@@ -55,6 +55,7 @@ build() {
 build_native() { build release; }
 build_asan() { build asan; }
 build_wasm() { build wasm; }
+readme_demo() { scripts/demo.sh --no-serve; }
 native_tests() { ctest --preset release --parallel "$(nproc)"; }
 asan_tests() {
   ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1 \
@@ -80,6 +81,8 @@ page_tests() {
 step "set up" scripts/setup.sh || { echo "Setting up failed: nothing was tested."; exit 1; }
 . build/deps/env.sh
 
+# Before anything else is built: in a fresh clone it must find all it needs by itself. The wasm build goes on from it.
+step "the demo of the README" readme_demo
 if step "build natively" build_native; then native=yes; else native=no; fi
 if step "build as wasm" build_wasm; then wasm=yes; else wasm=no; fi
 if [ $native = yes ]; then step "native tests" native_tests; else skip "native tests" "not built"; fi
